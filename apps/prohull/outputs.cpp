@@ -200,13 +200,7 @@ bool Outputs::add(const path& target, const std::string& suffix, const std::func
 }
 
 void Outputs::add(const path& target, std::string_view bytes) {
-  add(target, target.extension().string(), [&](const path& file) {
-    std::ofstream out(file, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (!out) fail_to_write(file);
-    return true;
-  });
+  add(target, target.extension().string(), [&](const path& file) { return write_bytes(file, bytes), true; });
 }
 
 void Outputs::add_report(const path& target, nlohmann::json report) {
@@ -234,6 +228,13 @@ void Outputs::commit() {
 }
 
 bool has_any_output_appeared() { return g_any_has_appeared; }
+
+void write_bytes(const path& file, std::string_view bytes) {
+  std::ofstream out(file, std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out) fail_to_write(file);
+}
 
 bool holds_triangles_of(const path& file, const TriangleMesh& mesh) { return has_triangles_of(read_mesh(file), mesh); }
 

@@ -10,6 +10,7 @@
 #include "prohull/sphere_cover.h"
 #include "robot/files/piece_files.h"
 #include "robot/files/sphere_file.h"
+#include "union_files.h"
 #include "verdict.h"
 
 namespace prohull::cli {
@@ -52,24 +53,26 @@ nlohmann::json json_of(const std::vector<Ball>& balls) {
   return all;
 }
 
-bool is_yaml(const std::string& suffix) { return suffix == ".yaml" || suffix == ".yml"; }
-
-std::string yaml_of(const std::string& link, const std::vector<Ball>& balls, const std::filesystem::path& path) {
-  const robot::LinkBalls spheres{link, balls};
-  const std::string text = robot::sphere_file(std::span(&spheres, 1));
-  const auto read = robot::read_sphere_file(text, path);
-  if (read.size() != 1 || read[0].balls != balls)
-    throw InputError(Defect::CannotWrite, fmt::format("{}: YAML does not keep these spheres", path.string()));
-  return text;
-}
-
 std::string text_of(const SpheresOptions& options, const std::string& suffix, const std::vector<Ball>& balls) {
   const std::string link = link_name(options);
-  if (is_yaml(suffix)) return yaml_of(link, balls, options.out);
-  if (suffix == ".json") return robot::sphere_json({link, balls});
+  const robot::LinkBalls spheres{link, balls};
+  if (suffix == ".yaml" || suffix == ".yml") return robot::sphere_file(std::span(&spheres, 1));
+  if (suffix == ".json") return robot::sphere_json(spheres);
   std::vector<robot::NamedPiece> pieces;
   for (const Ball& ball : balls) pieces.push_back({ball, {}});
   return suffix == ".urdf" ? robot::urdf_of(link, pieces) : robot::mjcf_of(link, pieces);
+}
+
+/// The file is read as `prohull verify --union` reads it.
+void add_spheres(Outputs& outputs, const SpheresOptions& options, const std::string& suffix,
+                 const std::vector<Ball>& balls) {
+  const bool holds = outputs.add(options.out, suffix, [&](const std::filesystem::path& file) {
+    write_bytes(file, text_of(options, suffix, balls));
+    return read_union({file}, {}, "").balls == balls;
+  });
+  if (!holds)
+    throw InputError(Defect::CannotWrite,
+                     fmt::format("{}: {} files do not keep these spheres", output_name(options.out), suffix));
 }
 
 /// Before any work: throws InputError for a name that the format cannot hold.
@@ -108,7 +111,7 @@ std::string text_of_origin(const SphereCover& cover) {
                      rounded_up(from_triangles.upper, 4));
 }
 
-void print_summary(const SpheresOptions& options, const std::string& suffix, const Outcome& outcome) {
+void print_summary(const SpheresOptions& options, const Outcome& outcome) {
   const SphereCover& cover = outcome.cover;
   say("{}: {} around {}, which reach out by at most {:.4g}, {:.3g} % of the diagonal{}\n", output_name(options.out),
       counted(cover.balls.size(), "sphere"), counted(outcome.faces, "face"),
@@ -120,9 +123,7 @@ void print_summary(const SpheresOptions& options, const std::string& suffix, con
         percent_text(std::abs(outcome.void_ratio()), 1), outcome.void_ratio() < 0 ? "less" : "more",
         cover.is_estimated ? " (estimated)" : "");
   for (const std::string& note : cover.notes) say("  {}\n", note);
-  // Only YAML is read back.
-  const std::string what = fmt::format("the union of the spheres{}", is_yaml(suffix) ? " as written" : "");
-  say("  certified: {}{}\n", certificate_of(cover.verdict, what),
+  say("  certified: {}{}\n", certificate_of(cover.verdict, "the union of the spheres as written"),
       cover.fills_wrap ? ", and the inside of the wrap" : "");
   if (cover.verdict.certified && !options.certificate.empty())
     print_certificate(options.certificate, outcome.certificate, {options.out}, options.in);
@@ -146,14 +147,14 @@ int run_spheres(SpheresOptions options) {
   outcome.cover = naming(options.in, options.cover,
                          [&](const SphereCoverOptions& how) { return sphere_cover(std::move(mesh), how); });
   Outputs outputs;
-  if (outcome.cover.verdict.certified) outputs.add(options.out, text_of(options, suffix, outcome.cover.balls));
+  if (outcome.cover.verdict.certified) add_spheres(outputs, options, suffix, outcome.cover.balls);
   if (outcome.cover.verdict.certified && !options.certificate.empty()) {
     outcome.certificate = balls_certificate(outcome.cover.balls, original);
     outputs.add(options.certificate, outcome.certificate.bytes);
   }
   outputs.add_report(options.report, report_of(options, outcome));
   outputs.commit();
-  print_summary(options, suffix, outcome);
+  print_summary(options, outcome);
   return outcome.cover.verdict.certified && outcome.cover.within_bounds ? kDone : kAnswerIsNo;
 }
 

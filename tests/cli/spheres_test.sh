@@ -24,8 +24,14 @@ says bracket.urdf "URDF" "<sphere radius="
 expect 0 "MJCF" $spheres -o bracket.xml
 says bracket.xml "MJCF" 'type="sphere"'
 expect 0 "JSON" $spheres -o bracket.json
-says out "JSON: it is not read back" "certified: yes, the union of the spheres covers every triangle"
 says bracket.json "JSON" '"radius"'
+for format in json urdf xml; do
+  expect 0 "$format: what is certified is what was written" $spheres -o again.$format --link "arm 1"
+  says out "$format: what is certified is what was written" "certified: yes, the union of the spheres as written covers every"
+  expect 0 "$format: verify reads it" $prohull verify --union again.$format bracket.stl --link "arm 1"
+  expect 0 "$format: on standard output" $spheres -o - --out-format $format --link "arm 1"
+  is "$format: standard output has the same bytes" cmp out again.$format
+done
 expect 0 "standard output" $spheres -o - --out-format yaml
 is "standard output has the same bytes" cmp out bracket.yaml
 says err "the summary goes to standard error then" "certified: yes"
