@@ -16,7 +16,7 @@
 #include "prohull/mesh_io.h"
 #include "prohull/tolerances.h"
 #include "recenter.h"
-#include "regions_file.h"
+#include "robot/files/region_file.h"
 #include "several.h"
 
 namespace prohull::cli {
@@ -127,7 +127,8 @@ bool can_be_kept(const Triangle& t) {
 void set_regions(BuildOptions& options, BuildOutcome& outcome, const TriangleMesh& mesh, const MeshMarks& marks,
                  const MeshUnit& unit) {
   Regions& regions = outcome.regions;
-  regions.all = read_regions(options.tolerance, unit);
+  regions.all = robot::read_region_file(read_bytes(options.tolerance), input_name(options.tolerance),
+                                        [&](const Length& length) { return unit.number_of(length, "max_distance"); });
   const PerFace<std::uint32_t> region_of =
       naming(options.tolerance, [&] { return regions_of_faces(mesh, marks, regions.all); });
   options.enclosing.hull.tolerances = tolerances_of(region_of, regions.all);

@@ -1,5 +1,5 @@
-// Whatever text a robot, its budgets and spheres, or a file of the cache has, it is read, or refused by an InputError.
-// The first byte chooses the reader.
+// Whatever text a robot, its budgets and spheres, regions of a mesh, or a file of the cache has, it is read, or refused
+// by an InputError. The first byte chooses the reader.
 #include <unistd.h>
 
 #include <cstddef>
@@ -17,12 +17,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }();
   if (size == 0) return 0;
   const std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
-  switch (data[0] % 3) {
+  switch (data[0] % 4) {
     case 0:
       take_robot(text);
       break;
     case 1:
       take_yaml(text);
+      break;
+    case 2:
+      take_regions(text);
       break;
     default:
       take_kept_hulls(text, folder);

@@ -88,6 +88,13 @@ TEST(Mutants, OfBudgetsAndSpheres) {
   take_mutants(sphere_json({"base", {{{1, 2, 3}, 0.5}}}), take_yaml);
 }
 
+TEST(Mutants, OfRegions) {
+  take_mutants(
+      "regions:\n  - {name: lid, box: [[0, 0, 0], [10, 20, 5]], keep: true}\n  - {group: flange, max_distance: 2mm}\n"
+      "  - {color: \"#ff8000\", spread: 8, max_distance: 0.5%}\n  - {faces: [0-99, 120], max_distance: 1}\n",
+      take_regions);
+}
+
 TEST(Mutants, OfKeptHulls) {
   const RobotFolder folder;
   const std::vector<LinkHull> hulls{

@@ -1,4 +1,4 @@
-#include "regions_file.h"
+#include "robot/files/region_file.h"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <charconv>
 #include <optional>
 #include <string>
+#include <utility>
 
-#include "inputs.h"
 #include "robot/files/yaml_reader.h"
 
-namespace prohull::cli {
+namespace prohull::robot {
 namespace {
 
 constexpr std::array<std::string_view, 5> kSelectors{"box", "color", "group", "faces", "vertices"};
@@ -19,7 +19,8 @@ constexpr std::array<std::string_view, 4> kOthers{"name", "spread", "keep", "max
 
 class RegionsReader {
  public:
-  RegionsReader(const std::filesystem::path& path, const MeshUnit& unit) : yaml_(input_name(path)), unit_(unit) {}
+  RegionsReader(std::string name, const std::function<double(const Length&)>& in_mesh)
+      : yaml_(std::move(name)), in_mesh_(in_mesh) {}
 
   std::vector<Region> read(const std::string& text) const {
     return yaml_.parse(text, [&](const YAML::Node& top) {
@@ -78,7 +79,7 @@ class RegionsReader {
 
   double length_in_mesh(const YAML::Node& node, const Length& length) const {
     try {
-      return unit_.number_of(length, "max_distance");
+      return in_mesh_(length);
     } catch (const InputError& error) {
       yaml_.refuse(node, error.what());
     }
@@ -122,7 +123,9 @@ class RegionsReader {
                                      text));
     const auto byte = [&](int shift) { return static_cast<std::uint8_t>(number >> shift & 0xff); };
     PaintedColor result{.color = {byte(16), byte(8), byte(0)}};
-    if (spread) result.spread = yaml_.value<unsigned>(spread, "a number from 0 to 255");
+    constexpr const char* kSpread = "a number from 0 to 255";
+    if (spread) result.spread = yaml_.value<unsigned>(spread, kSpread);
+    if (result.spread > 255) yaml_.refuse(spread, fmt::format("'{}': expected {}", spread.Scalar(), kSpread));
     return result;
   }
 
@@ -149,14 +152,15 @@ class RegionsReader {
     return result;
   }
 
-  const robot::YamlReader yaml_;
-  const MeshUnit& unit_;
+  const YamlReader yaml_;
+  const std::function<double(const Length&)>& in_mesh_;
 };
 
 }  // namespace
 
-std::vector<Region> read_regions(const std::filesystem::path& path, const MeshUnit& unit) {
-  return RegionsReader(path, unit).read(read_bytes(path));
+std::vector<Region> read_region_file(const std::string& text, const std::string& name,
+                                     const std::function<double(const Length&)>& in_mesh) {
+  return RegionsReader(name, in_mesh).read(text);
 }
 
-}  // namespace prohull::cli
+}  // namespace prohull::robot
