@@ -44,7 +44,8 @@ struct SweepRunOptions {
 struct SweptZone {
   std::vector<LinkSweep> sweeps;  ///< of a mesh one, without a name
   std::optional<EnclosingHull> hull;
-  Verdict verdict;  ///< of all together, as the file holds it
+  Verdict verdict;       ///< of all together, as the file holds it
+  nlohmann::json input;  ///< facts of what was read
   double read_seconds = 0, seconds = 0;
 
   std::vector<TriangleMesh> pieces() const {
@@ -96,12 +97,13 @@ std::vector<RigidMotion> motions_of(const SweepRunOptions& options) {
   return {motion};
 }
 
-LinkSweep sweep_of_mesh(const SweepRunOptions& options, SweepOptions how, double& read_seconds) {
+LinkSweep sweep_of_mesh(const SweepRunOptions& options, SweepOptions how, SweptZone& zone) {
   const std::vector<RigidMotion> motions = motions_of(options);
   const Stopwatch reading;
   FileUnit unit;
   TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep, nullptr, &unit);
-  read_seconds = reading.seconds();
+  zone.read_seconds = reading.seconds();
+  zone.input = {{"faces", mesh.face_count()}, {"diagonal", finite_bounding_box(mesh).diagonal()}};
   if (options.max_distance.number > 0)
     how.max_distance =
         MeshUnit(mesh, options.in, options.input, unit).number_of(options.max_distance, "--max-distance");
@@ -122,7 +124,7 @@ std::vector<std::size_t> links_of(const Robot& robot, const std::string& names) 
   return links;
 }
 
-std::vector<LinkSweep> sweeps_of_robot(const SweepRunOptions& options, SweepOptions how, double& read_seconds) {
+std::vector<LinkSweep> sweeps_of_robot(const SweepRunOptions& options, SweepOptions how, SweptZone& zone) {
   if (options.joint_path.empty() && !options.workspace)
     refuse("a robot needs a PATH of its joints, as in prohull sweep ROBOT PATH -o OUT, or --workspace");
   const Stopwatch reading;
@@ -130,7 +132,8 @@ std::vector<LinkSweep> sweeps_of_robot(const SweepRunOptions& options, SweepOpti
   std::optional<JointPath> path;
   if (!options.workspace)
     path.emplace(file.robot, read_path_rows(read_bytes(options.joint_path), input_name(options.joint_path)));
-  read_seconds = reading.seconds();
+  zone.read_seconds = reading.seconds();
+  zone.input = {{"robot", file.robot.name}};
   const Length& most = options.max_distance;
   if (most.unit == "%") refuse("--max-distance of a robot is in metres, or has a unit: 5mm");
   if (most.number > 0) how.max_distance = most.of(0);
@@ -212,6 +215,28 @@ void print_summary(const SweepRunOptions& options, const SweptZone& zone) {
   say("  read {:.2f} s, sweep {:.2f} s\n", zone.read_seconds, zone.seconds);
 }
 
+nlohmann::json name_or_null(const path& file) {
+  return file.empty() ? nlohmann::json() : nlohmann::json(file.string());
+}
+
+/// All files that were read, and how the mesh or the robot moved.
+nlohmann::json sources_of(const SweepRunOptions& options, const SweptZone& zone) {
+  nlohmann::json in = zone.input;
+  in["path"] = options.in.string();
+  return {{"input", in},
+          {"joint_path", name_or_null(options.joint_path)},
+          {"poses", name_or_null(options.poses)},
+          {"options",
+           {{"scale", options.input.factor()},
+            {"pieces", options.sweep.max_pieces},
+            {"faces", options.faces > 0 ? nlohmann::json(options.faces) : nlohmann::json()},
+            {"workspace", options.workspace},
+            {"axis", options.axis},
+            {"through", options.through},
+            {"move", options.move},
+            {"angle_degrees", options.degrees ? nlohmann::json(*options.degrees) : nlohmann::json()}}}};
+}
+
 nlohmann::json report_of(const SweepRunOptions& options, const SweptZone& zone) {
   nlohmann::json sweeps = nlohmann::json::array();
   for (const LinkSweep& link : zone.sweeps)
@@ -225,8 +250,8 @@ nlohmann::json report_of(const SweepRunOptions& options, const SweptZone& zone) 
                       {"notes", link.sweep.notes}});
   const bool has_volume = zone.hull || !is_robot_file(options.in);
   const double volume = zone.hull ? volume_of(*zone.hull) : zone.sweeps[0].sweep.volume;
-  return {
-      {"input", {{"path", options.in.string()}}},
+  nlohmann::json report = sources_of(options, zone);
+  report.update(nlohmann::json{
       {"path", options.out.string()},
       {"pieces", zone.pieces().size()},
       {"hull_faces", zone.hull ? nlohmann::json(zone.hull->mesh.face_count()) : nlohmann::json()},
@@ -235,7 +260,8 @@ nlohmann::json report_of(const SweepRunOptions& options, const SweptZone& zone) 
       {"volume_error", has_volume && !zone.hull ? nlohmann::json(zone.sweeps[0].sweep.volume_error) : nlohmann::json()},
       {"volume_is_estimated", !zone.hull || std::isnan(zone.hull->verdict.hull_volume)},
       {"sweeps", sweeps},
-      {"seconds", {{"read", zone.read_seconds}, {"sweep", zone.seconds}}}};
+      {"seconds", {{"read", zone.read_seconds}, {"sweep", zone.seconds}}}});
+  return report;
 }
 
 void check_options(const SweepRunOptions& options) {
@@ -263,9 +289,9 @@ int run_sweep(const SweepRunOptions& options) {
     how.progress = std::ref(line);
     how.float32_coordinates = float32;
     if (is_robot_file(options.in))
-      zone.sweeps = sweeps_of_robot(options, how, zone.read_seconds);
+      zone.sweeps = sweeps_of_robot(options, how, zone);
     else
-      zone.sweeps.push_back(sweep_of_mesh(options, how, zone.read_seconds));
+      zone.sweeps.push_back(sweep_of_mesh(options, how, zone));
   }
   if (options.faces > 0) add_hull(options, float32, zone);
   zone.seconds = watch.seconds() - zone.read_seconds;

@@ -29,6 +29,8 @@ expect 0 "a quarter turn" $sweep --angle 90 -o quarter.stl --report quarter.json
 says out "a quarter turn" "certified: yes, the union of the pieces as written encloses the mesh, at every moment"
 says quarter.json "the report" '"certified": true'
 says quarter.json "the report" '"encloses_solid": true'
+says quarter.json "the report: what was read" '"diagonal": '
+says quarter.json "the report: how it moved" '"angle_degrees": 90.0'
 expect 0 "it covers the beginning" $prohull verify quarter.stl bar.off
 printf 'OFF\n8 6 0\n0.1 0 0\n0.1 1 0\n-0.1 1 0\n-0.1 0 0\n0.1 0 0.2\n0.1 1 0.2\n-0.1 1 0.2\n-0.1 0 0.2\n' >end.off
 sed -n 11,16p bar.off >>end.off
@@ -90,6 +92,8 @@ cat >arm.urdf <<'URDF'
 URDF
 printf 'turn\n0\n1.5707963267948966\n' >turn.csv
 expect 0 "a robot" $prohull sweep arm.urdf turn.csv -o arm.stl --report arm.json
+says arm.json "a robot: its name" '"robot": "arm"'
+says arm.json "a robot: the path of its joints" '"joint_path": "turn.csv"'
 says out "a robot" "certified: yes, the union of the pieces as written encloses the links"
 says arm.json "each link" '"link": "bar"'
 expect 0 "a robot at the beginning" $prohull verify arm.stl bar.off
