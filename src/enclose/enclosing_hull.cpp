@@ -133,12 +133,14 @@ double volume_of(const EnclosingHull& hull) {
   return std::isnan(known) ? signed_volume(hull.mesh) : known;
 }
 
-// No estimate may say that what encloses is smaller than what it encloses, nor may rounding.
+// No estimate may say that what encloses is smaller than what it encloses, nor may rounding. More than rounding is told
+// as it is: it would be a mistake, for both volumes are proven to be those of solids of which one encloses the other.
 double known_void(const EnclosingHulls& made, const EnclosingHull& hull) {
   const double ratio = hull.verdict.hull_volume / made.volume - 1;
-  const double possible = hull.verdict.side == HullSide::Outer ? std::max(ratio, 0.0) : std::min(ratio, 0.0);
-  const bool is_known = made.volume > 0 && (possible == ratio || !made.is_estimated);
-  return is_known ? possible : std::numeric_limits<double>::quiet_NaN();
+  const bool is_possible = hull.verdict.side == HullSide::Outer ? ratio >= 0 : ratio <= 0;
+  if (!(made.volume > 0) || (!is_possible && made.is_estimated)) return std::numeric_limits<double>::quiet_NaN();
+  constexpr double kRounding = 1e-9;
+  return !is_possible && std::abs(ratio) < kRounding ? 0.0 : ratio;
 }
 
 Names<Repair> repair_names() { return kRepairNames; }

@@ -199,6 +199,7 @@ void build(Case& given, const EnclosingOptions& options) {
   const EnclosingHull& hull = made.hulls.front();
   const HullSide side = options.hull.side;
   ASSERT_TRUE(hull.certified) << testing::PrintToString(hull.notes);
+  EXPECT_FALSE(side == HullSide::Outer ? hull.void_ratio < 0 : hull.void_ratio > 0) << hull.void_ratio;
   EXPECT_TRUE(!options.hull.float32_coordinates || std::ranges::all_of(hull.mesh.positions, is_float32));
   expect_claims(given, hull.mesh, side, made.input);
   if (options.bounds.max_distance < std::numeric_limits<double>::infinity() && hull.within_bounds)
