@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "prohull/detail/finite.h"
 #include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "prohull/mesh_query.h"
+#include "prohull/enclosure.h"
 #include "view/blocks.h"
 #include "view/facts.h"
 #include "view/grid.h"
@@ -201,7 +203,7 @@ class Writer {
     facts["original_faces"] = hull.original_face_count();
     facts["original_shown"] = !is_own;
     facts["verification"] = verification_facts(shown, given, options_);
-    if (is_closed(reference.mesh)) add_volumes(facts, hull, signed_volume(turned_outwards(reference.mesh)));
+    if (is_closed(reference.mesh)) add_volumes(facts, hull, turned_outwards(reference.mesh));
     facts["stops"] = stops_of(hull, reference);
     return facts;
   }
@@ -217,7 +219,19 @@ class Writer {
     return distances;
   }
 
-  void add_volumes(json& facts, const ProgressiveHull& hull, double volume) {
+  /// Whether no part of the mesh lies in another one, so that the signed volume is that of the solid.
+  static bool counts_once(const TriangleMesh& mesh) {
+    constexpr double kRounding = 1e-9;
+    const double with_overlaps = signed_volume(mesh);
+    const auto solid = solid_volume(mesh);
+    return solid && std::abs(with_overlaps - *solid) <= kRounding * *solid;
+  }
+
+  /// Signed volumes of the levels, where these count nothing twice: the winding numbers of each level lie between those
+  /// of the base mesh and of the finest one, and these are 0 or 1 everywhere.
+  void add_volumes(json& facts, const ProgressiveHull& hull, const TriangleMesh& original) {
+    if (!counts_once(original) || !counts_once(hull.base())) return;
+    const double volume = signed_volume(original);
     std::vector<std::uint32_t> ratios;
     for (const double v : volumes_of_levels(hull))
       ratios.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(v / volume - 1)));

@@ -171,6 +171,22 @@ TEST_F(ViewPage, TakesHugeCoordinates) {
   EXPECT_NO_THROW(page({{"huge.stl", huge}}, Original{"box.stl", make_sample("box", 100)}, {}));
 }
 
+// Signed volumes would count the overlap twice, where `prohull verify` counts it once.
+TEST_F(ViewPage, TellsVoidsOfLevelsWhereNothingOverlaps) {
+  const TriangleMesh torus = make_sample("torus", 600);
+  TriangleMesh crossed = torus;
+  for (const Vec3& p : torus.positions) crossed.positions.push_back(p + Vec3{0.3, 0, 0});
+  const auto offset = static_cast<std::uint32_t>(torus.vertex_count());
+  for (const auto& [a, b, c] : torus.triangles)
+    crossed.triangles.push_back(
+        {VertexId(index(a) + offset), VertexId(index(b) + offset), VertexId(index(c) + offset)});
+  const auto page_of = [](const TriangleMesh& mesh) {
+    return page({{"hull.phull", build_hull(mesh, {.target_faces = 100}).hull}}, Original{"mesh.ply", mesh}, {});
+  };
+  EXPECT_NE(page_of(torus).find("\"void_ratios\":"), std::string::npos);
+  EXPECT_EQ(page_of(crossed).find("\"void_ratios\":"), std::string::npos);
+}
+
 TEST_F(ViewPage, SaysWhyAHullCannotBeVerified) {
   TriangleMesh open = make_sample("box", 100);
   open.triangles.pop_back();
