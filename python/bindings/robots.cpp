@@ -158,6 +158,7 @@ py::dict facts_of(const LinkHull& hull, const LinkHulls& link) {
   facts["within_bounds"] = hull.within_bounds;
   facts["source"] = hull.source;
   facts["volume_ratio"] = link.sealed_volume > 0 ? hull.volume / link.sealed_volume : NAN;
+  facts["volume_ratio_is_estimated"] = link.is_estimated;
   facts["self_intersections"] = hull.self_intersections;
   facts["notes"] = hull.notes;
   return facts;
@@ -215,6 +216,7 @@ py::dict facts_of(const RobotFile& file, const LinkCheck& check, double allow) {
     facts["worst_point"] = py::make_tuple(p.x, p.y, p.z);
   facts["faces_outside"] = check.faces_outside;
   facts["volume_ratio"] = check.visual_volume > 0 ? check.collision_volume / check.visual_volume : NAN;
+  facts["volume_ratio_is_estimated"] = check.is_estimated;
   facts["distance_bound"] = check.reach.upper;
   facts["mean_distance"] = check.mean_distance;
   facts["notes"] = check.notes;

@@ -5,7 +5,7 @@ import os
 import pathlib
 import tempfile
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, Optional
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from . import _arrays, _prohull
 from ._hull import Hull
 from ._meshes import Mesh
 from ._prohull import InputError
-from ._types import Gap, MeshLike, Path
+from ._types import Axis, Gap, MeshLike, Path
 
 
 def mesh_of(mesh: MeshLike, keep_non_finite: bool = False) -> Mesh:
@@ -78,23 +78,31 @@ _FINEST = {"repaired": "the input after repairs", "convex-hull": "the convex hul
            "wrap": "a wrap of the input"}
 
 
-def load(path: Path) -> Hull:
+def load(path: Path, *, mirror: Optional[Axis] = None) -> Hull:
     """Loads the hull that Hull.save() wrote to a .phull file, with all of its levels.
 
     The file holds the original mesh too, and the hull is verified against it as verify() does: `certified` says whether
     each level encloses all finer ones up to the original. If it does not, `notes` says why. `notes` also tells if the finest
     level, the `original`, is not what build() was given but what it made of that. Raises InputError if the file is not
     a sound .phull file. A mesh file is read by read().
+
+    mirror: the axis for which build() was asked for a symmetric hull, which the file does not tell; None if that does
+        not matter. Then levels are symmetric ones, and STL and GLB files are refused where float32 breaks the symmetry.
+        Raises InputError if the hull is not symmetric.
     """
     levels = _prohull.load(_arrays.path(path))
     faces = levels.base_face_count
     original = levels.level(levels.original_face_count)
-    found = _prohull.verify_levels(levels, original, False, 0.0, False, "keep", None)
+    if mirror is not None:
+        _arrays.one_of("mirror", mirror, ("x", "y", "z"))
+        if not levels.level(0).is_symmetric(mirror):
+            raise InputError(f"{os.fspath(path)}: the hull is not symmetric along {mirror}; leave mirror out")
+    found = _prohull.verify_levels(levels, original, False, 0.0, False, "keep", 0, None)
     proven, why_not = found["encloses"], found["why_not"]
     finest = _FINEST.get(levels.finest_level)
     notes = ([why_not] if why_not else []) + ([f"the finest level is {finest}, not the input itself"] if finest else [])
     facts = dict(mesh=levels.level(0), original=original, levels=levels, source="mesh", wrap_spacing=0.0,
-                 replay_suffices=False,
+                 replay_suffices=False, mirror=mirror,
                  certified=proven, proof="replay" if proven else "", gap=0.0, target_faces=faces, target_reached=True,
                  within_bounds=True, refusals={}, blocked={}, relaxed_guards=0, rounded_vertices=0, build_seconds=0.0,
                  verify_seconds=0.0, repairs=[], notes=notes)

@@ -103,7 +103,7 @@ class Hull(Mesh):
     def level(self, faces: int) -> "Hull":
         """The finest level of at most `faces` faces; the coarsest one if that has more.
 
-        Of a hull that was built with `mirror`, it is the finest symmetric one. A hull that was loaded does not know it.
+        Of a hull that was built with `mirror`, it is the finest symmetric one. A hull that was loaded knows it by load(mirror=...).
         Each level encloses the solid of the next finer one (inner hulls: is enclosed by it). Where the original folds
         over itself, as with openings or overlapping parts, a level may leave some of its faces uncovered: then
         `certified` is false, and `notes` say why. A level is a hull without levels of its own. Raises InputError if the

@@ -424,6 +424,21 @@ def test_a_symmetric_hull_is_its_own_mirror_image():
     assert is_mirrored(pickle.loads(pickle.dumps(hull)).level(99), 0)
 
 
+def test_a_symmetric_hull_that_was_loaded_stays_so_or_is_refused(tmp_path):
+    vertices, faces = two_pyramids()
+    vertices = vertices + [1 / 3, 0, 0]  # no float32
+    prohull.build(vertices, faces, 40, mirror="x", levels=True).save(tmp_path / "hull.phull")
+    prohull.load(tmp_path / "hull.phull").save(tmp_path / "any.stl")
+    known = prohull.load(tmp_path / "hull.phull", mirror="x")
+    assert known.level(99)._core.is_symmetric("x")
+    with pytest.raises(prohull.InputError, match="is not symmetric any more"):
+        known.save(tmp_path / "hull.stl")
+    assert not (tmp_path / "hull.stl").exists()
+    prohull.build(prohull.sample("bracket", 500), 50, levels=True).save(tmp_path / "bracket.phull")
+    with pytest.raises(prohull.InputError, match="not symmetric along x; leave mirror out"):
+        prohull.load(tmp_path / "bracket.phull", mirror="x")
+
+
 def test_a_mesh_that_is_not_symmetric_is_refused():
     with pytest.raises(prohull.InputError, match="not exactly symmetric: .* has no mirror image in the plane x = "):
         prohull.build(prohull.sample("bracket", 500), 50, mirror="x")
@@ -448,3 +463,13 @@ def test_the_verdict_of_an_open_mesh_closes_what_build_has_closed(pony):
     assert inner.verdict and inner.verdict.proof == "enclosure"
     kept = prohull.build((vertices, faces), 40, open_shells="keep")
     assert kept.verdict and kept.verdict.proof == "coverage" and not kept.verdict.original_closed
+
+
+def test_verify_ends_after_so_many_steps(pony):
+    hull = prohull.build(pony, 60, gap="1%")
+    found = prohull.verify(hull, pony, gap="1%", steps=1000)
+    assert not found and found.encloses and not found.keeps_gap and found.faces_too_near == 0
+    assert 0 < found.faces_undecided and found.gap is None and "undecided" in found.why_not
+    assert prohull.verify(hull, pony, gap="1%", steps=10**9)
+    with pytest.raises(prohull.InputError, match="steps=0: expected a whole number, at least 1"):
+        prohull.verify(hull, pony, steps=0)

@@ -75,6 +75,7 @@ def test_hulls_are_certified_in_the_frame_that_they_tell(robot, hulls):
         for hull, faces in zip(hulls[link.name].hulls, (100, 60)):
             assert len(hull.mesh.faces) <= faces == hull.target_faces
             assert hull.verdict.proof == "padding" and hull.verdict.gap >= 0.01 and hull.volume_ratio > 1
+            assert not hull.volume_ratio_is_estimated
             in_link = hull.mesh.vertices @ hull.origin[:3, :3].T + hull.origin[:3, 3]
             assert prohull.Mesh(in_link, hull.mesh.faces).contains(link.visual.vertices).all()
     with pytest.raises(KeyError):

@@ -277,6 +277,7 @@ class LinkChecker {
     check_.collision_volume = collision.volume;
     // No estimate may say that what is covered is larger than what covers it.
     const bool is_exact = !inside.is_estimated && !collision.is_estimated;
+    check_.is_estimated = !is_exact;
     if (is_exact || check_.verdict != CheckVerdict::Covered || inside.volume <= collision.volume)
       check_.visual_volume = inside.volume;
   }

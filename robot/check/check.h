@@ -36,6 +36,7 @@ struct LinkCheck {
   double visual_volume = 0;     ///< of what lies inside of the visual geometry: as EnclosingHulls::volume; 0: unknown
   double collision_volume = 0;  ///< of the union of the pieces; estimated, where they overlap
   double convex_volume = 0;     ///< of the convex hull of the visual geometry
+  bool is_estimated = false;    ///< one of the two volumes before
   /// How far the collision geometry reaches out of the solid of the visual one, whose openings count as closed; from
   /// its triangles if they bound none. What is inside counts as 0. `farthest` is a point if the lower bound is not 0.
   DistanceBounds reach;
