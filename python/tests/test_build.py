@@ -426,7 +426,7 @@ def test_a_symmetric_hull_is_its_own_mirror_image():
 
 def test_a_symmetric_hull_that_was_loaded_stays_so_or_is_refused(tmp_path):
     vertices, faces = two_pyramids()
-    vertices = vertices + [1 / 3, 0, 0]  # no float32
+    vertices = np.round(vertices * 2**30) / 2**30 + [1 + 2**-28, 0, 0]  # doubles, and no float32
     prohull.build(vertices, faces, 40, mirror="x", levels=True).save(tmp_path / "hull.phull")
     prohull.load(tmp_path / "hull.phull").save(tmp_path / "any.stl")
     known = prohull.load(tmp_path / "hull.phull", mirror="x")
