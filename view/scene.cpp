@@ -9,9 +9,9 @@
 
 #include "prohull/detail/finite.h"
 #include "prohull/detail/text.h"
+#include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_query.h"
-#include "prohull/enclosure.h"
 #include "view/blocks.h"
 #include "view/facts.h"
 #include "view/grid.h"
