@@ -71,8 +71,8 @@ std::string verdict(const Verification& found, const SizeComparison& sizes, cons
   const bool base_only = !found.encloses || found.faces_beside_solid > 0;
   const std::string levels = replayed ? (base_only ? "the base mesh of " : "every level of ") + hull : hull;
   const std::string what = claim(found, levels, original);
-  if (!found.encloses)
-    return fmt::format("{}: {}{}: {}", is_undecided(found) && found.faces_too_near == 0 ? "UNDECIDED" : "NO", what,
+  if (!found.encloses && !(is_undecided(found) && found.faces_too_near > 0))
+    return fmt::format("{}: {}{}: {}", is_undecided(found) ? "UNDECIDED" : "NO", what,
                        found.is_yes() ? ", but there is more" : "", found.why_not);
   if (is_gap_undecided(found))
     return fmt::format("UNDECIDED: {}, and may keep the gap of {:.9g}: {}", what, gap, found.why_not);

@@ -22,7 +22,7 @@ namespace {
 
 using Release = py::call_guard<py::gil_scoped_release>;
 
-py::dict facts_of(const Verification& found) {
+py::dict facts_of(const Verification& found, double gap) {
   py::dict facts = verdict_facts(found);
   facts["encloses"] = found.encloses;
   facts["faces_outside"] = found.faces_outside;
@@ -34,7 +34,8 @@ py::dict facts_of(const Verification& found) {
   facts["original_volume"] = found.original_volume;
   facts["void_ratio"] = found.void_ratio;
   facts["notes"] = found.notes;
-  facts["keeps_gap"] = found.keeps_gap;
+  const bool is_known = gap > 0 && (found.keeps_gap || found.faces_too_near > 0);
+  facts["keeps_gap"] = is_known ? py::object(py::bool_(found.keeps_gap)) : py::none();
   facts["faces_too_near"] = found.faces_too_near;
   facts["least_distance"] = found.least_distance;
   py::list nearest;
@@ -65,7 +66,7 @@ py::dict verified(const TriangleMesh& original, HullSide side, const Asked& aske
   if (!open_shells)
     throw InputError(Defect::InvalidOption,
                      "open_shells='" + asked.open_shells + "': expected one of " + joined(open_shells_names()));
-  return facts_of(watched(progress, [&](Watch& watch) {
+  const Verification found = watched(progress, [&](Watch& watch) {
     const std::optional<ClosedMesh> closed = closed_original(original, side, *open_shells);
     return decide(VerificationOptions{.solid_only = asked.solid_only,
                                       .gap = asked.gap,
@@ -73,7 +74,8 @@ py::dict verified(const TriangleMesh& original, HullSide side, const Asked& aske
                                       .closed = closed ? &closed->mesh : nullptr,
                                       .max_steps = asked.steps,
                                       .progress = watch.progress()});
-  }));
+  });
+  return facts_of(found, asked.gap);
 }
 
 py::dict verified_mesh(const TriangleMesh& hull, const TriangleMesh& original, const std::string& side_name,

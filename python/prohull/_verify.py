@@ -94,7 +94,7 @@ class Verification(Verdict):
     original_volume: float  #: of the solid, in cubic units; overlaps count once; nan if it is not known
     void_ratio: float  #: volume of the hull / volume of the original - 1; nan if one of the two is not known
     notes: list[str]  #: what was left out of the original or turned, and units that seem to differ
-    keeps_gap: bool  #: whether the hull keeps the gap; exact. False with faces_too_near of 0: undecided
+    keeps_gap: Optional[bool]  #: whether the hull keeps the gap; exact; None if none was asked for, or it was not decided
     faces_too_near: int  #: number of faces of the hull that do not; exact
     nearest: list[NearFace]  #: the nearest of these, nearest first
     least_distance: float  #: between hull and original, rounded; nan without a gap, and where the search ended before

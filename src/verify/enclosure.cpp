@@ -274,8 +274,8 @@ bool winds_negatively(TriangleMesh mesh, const Progress& progress) {
 }
 
 std::string undecided(std::size_t faces) {
-  return fmt::format("undecided: {} would take too long, because {} meet{} so many others", counted(faces, "face"),
-                     faces == 1 ? "it" : "they", faces == 1 ? "s" : "");
+  return fmt::format("undecided: the search was ended before {} {} decided; allow more steps", counted(faces, "face"),
+                     faces == 1 ? "was" : "were");
 }
 
 Holes find_holes(const Surface& inner, const Surface& outer, const OpenCells& open_cells,

@@ -189,13 +189,13 @@ class Judge {
     found.faces_too_near = report.faces_too_near;
     found.nearest = std::move(report.nearest);
     found.least_distance = report.least_distance;
-    if (!found.encloses || found.keeps_gap) return;
+    const bool is_open = found.is_any(Answer::Undecided) && !found.is_any(Answer::No);
+    if (found.keeps_gap || !(found.encloses || (is_open && found.faces_too_near > 0))) return;
     found.why_not =
         found.faces_too_near > 0
             ? fmt::format("{} of it {} nearer to the original than that", counted(found.faces_too_near, "face"),
                           found.faces_too_near == 1 ? "is" : "are")
-            : fmt::format("undecided: {} of it would take too long, because so much of the original is near",
-                          counted(report.faces_undecided, "face"));
+            : verify::undecided(report.faces_undecided);
   }
 
   void measure(verify::KnownSolid& hull) {
