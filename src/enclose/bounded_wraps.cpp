@@ -77,9 +77,24 @@ bool may_keep_bounds(double spacing, const Ranking& ranking, double last) {
 
 }  // namespace
 
+// Collapses move faces away from the triangles, so that a hull of an offset surface needs no millions of faces. A foot
+// and a leg of robots, which fold over, have 2,596 and 1,742 faces at 0.1 % of the diagonal, after 3 and 2 s; of wraps
+// they had 3,350 and 2,024, after 32 and 22 s. A tent of four faces has 16.
+void Candidates::plan_offset() {
+  steps_.push_back([this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+    constexpr double kNear = 0.125;  // of the bound; the rest is for collapses
+    if (ranking.has_certified() && (ranking.best().hull.within_bounds || is_of_clean_mesh(ranking, solids)))
+      return std::nullopt;
+    if (!request_.input.closed && solids.volume(target_faces_) > 0) return std::nullopt;
+    const auto id = solids.offset(kNear * bounds_.max_distance);
+    return id ? std::optional(within(*id, bounds_.max_distance, solids)) : std::nullopt;
+  });
+}
+
 void Candidates::plan_bounded_wraps() {
   constexpr double kClose = 1.0 / 200;  // to the diagonal
   const double max_distance = bounds_.max_distance;
+  if (may_stay_within()) plan_offset();
   const bool is_close =
       max_distance < kClose * request_.diagonal || kBoundedSpacing * max_distance < finest_loose_spacing(request_);
   const double finest = finest_close_spacing(request_);

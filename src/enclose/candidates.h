@@ -39,6 +39,7 @@ class Candidates {
   void plan_wraps();
   void plan_other_wraps();
   void plan_clear_of_wraps();
+  void plan_offset();
   void plan_bounded_wraps();
   void plan_close_wraps();
   void plan_loose_wraps();

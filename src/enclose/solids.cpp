@@ -8,6 +8,7 @@
 
 #include "enclose/folds.h"
 #include "enclose/known_void.h"
+#include "enclose/offset_surface.h"
 #include "geometry/float32.h"
 #include "prohull/detail/progress_meter.h"
 #include "prohull/detail/stopwatch.h"
@@ -144,6 +145,27 @@ std::optional<SolidId> Solids::wrap(const WrapKind& kind, double spacing, std::s
       wraps_[faces].push_back(*id);
     } catch (const InputError& error) {
       why_not = fmt::format("the wrap with a spacing of {:.4g} is no closed 2-manifold: {}", spacing, error.what());
+    }
+  repair_seconds_ += watch.seconds();
+  return id;
+}
+
+std::optional<SolidId> Solids::offset(double distance) {
+  if (const auto known = offsets_.find(distance); known != offsets_.end()) return known->second;
+  const Stopwatch watch;
+  std::optional<SolidId>& id = offsets_[distance];
+  const auto& closed = request_.input.closed;
+  std::optional<TriangleMesh> made = offset_surface(closed ? closed->mesh : request_.to_cover(), distance);
+  if (made && request_.options.hull.float32_coordinates)
+    for (Vec3& p : made->positions) p = nearest_float32(p);
+  if (made) try {
+      ClosedMesh around = closed_mesh(std::move(*made));
+      if (count_self_intersections(around.mesh) == 0)
+        id = add({.source = Source::Wrap,
+                  .mesh = std::move(around.mesh),
+                  .wrap_spacing = distance,
+                  .components = around.report.components});
+    } catch (const InputError&) {  // no closed 2-manifold
     }
   repair_seconds_ += watch.seconds();
   return id;

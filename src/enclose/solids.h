@@ -42,6 +42,8 @@ class Solids {
   /// A convex polytope of at most so many faces, at least 4, around the convex hull, or a tent over what is flat. None
   /// if the convex hull has no more faces itself.
   std::optional<SolidId> polytope(std::size_t faces);
+  /// At a distance from what is closed, or from sheets with nothing inside. None if it would pass through itself.
+  std::optional<SolidId> offset(double distance);
   /// For a hull of so many faces. None if nothing is thick enough, or `why_not` says why.
   std::optional<SolidId> wrap(const WrapKind& kind, double spacing, std::size_t faces, std::string& why_not);
   /// Those made for hulls of so many faces, which must not depend on what else is asked for.
@@ -87,6 +89,7 @@ class Solids {
   bool has_no_convex_hull_ = false;
   std::optional<std::optional<SolidId>> unfolded_;  ///< once it was asked for
   std::optional<SolidId> convex_hull_;
+  std::map<double, std::optional<SolidId>> offsets_;   ///< by distance
   std::map<std::size_t, SolidId> polytopes_;           ///< by faces
   std::map<std::size_t, std::vector<SolidId>> wraps_;  ///< by faces
 };

@@ -1,0 +1,177 @@
+#include "enclose/offset_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace prohull {
+namespace {
+
+constexpr double kJoined = 1e-2;  // of the distance: nearer vertices become one
+
+VertexId joined_with(PerVertex<VertexId>& parent, VertexId v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+/// Without faces that vanish, and with each vertex in place of those near to it.
+TriangleMesh with_joined_vertices(const TriangleMesh& mesh, double distance) {
+  std::vector<VertexId> by_x;
+  PerVertex<VertexId> parent(mesh.vertex_count());
+  for (const VertexId v : mesh.positions.ids()) by_x.push_back(v), parent[v] = v;
+  const auto& at = mesh.positions;
+  std::ranges::stable_sort(by_x, {}, [&](VertexId v) { return at[v].x; });
+  for (std::size_t i = 0; i < by_x.size(); ++i)
+    for (std::size_t j = i + 1; j < by_x.size() && at[by_x[j]].x - at[by_x[i]].x <= distance; ++j)
+      if (norm(at[by_x[j]] - at[by_x[i]]) <= distance) {
+        const VertexId a = joined_with(parent, by_x[i]), b = joined_with(parent, by_x[j]);
+        parent[std::max(a, b)] = std::min(a, b);
+      }
+  TriangleMesh joined{mesh.positions, {}};
+  for (const auto& corners : mesh.triangles) {
+    std::array<VertexId, 3> now = corners;
+    for (VertexId& v : now) v = joined_with(parent, v);
+    if (now[0] != now[1] && now[1] != now[2] && now[2] != now[0]) joined.triangles.push_back(now);
+  }
+  return joined;
+}
+
+/// The shortest vector whose product with each direction is at least 1, about: that to the point of their convex hull
+/// that is nearest to the origin (Gilbert's algorithm), divided by its squared length. None if it is long.
+std::optional<Vec3> common_step(const std::vector<Vec3>& directions) {
+  constexpr int kMostSteps = 200;
+  constexpr double kLongest = 6;
+  if (directions.empty()) return std::nullopt;
+  Vec3 nearest = directions.front();
+  const auto lowest = [&] {
+    return *std::ranges::min_element(directions, {}, [&](const Vec3& d) { return dot(nearest, d); });
+  };
+  for (int i = 0; i < kMostSteps; ++i) {
+    const Vec3 step = lowest() - nearest;
+    const double gain = -dot(nearest, step);
+    if (!(gain > 1e-9 * squared_norm(nearest))) break;
+    nearest = nearest + step * std::min(1.0, gain / squared_norm(step));
+  }
+  const double least = dot(nearest, lowest());
+  if (!(least > 0) || norm(nearest) > kLongest * least) return std::nullopt;
+  return nearest / least;
+}
+
+class Offset {
+ public:
+  Offset(const TriangleMesh& mesh, double distance)
+      : mesh_(mesh), distance_(distance), twins_(3 * mesh.face_count(), kNone), fan_(3 * mesh.face_count()) {}
+
+  std::optional<TriangleMesh> made() {
+    if (mesh_.face_count() == 0 || !find_twins()) return std::nullopt;
+    find_fans();
+    const bool is_closed = std::ranges::find(twins_, kNone) == twins_.end();
+    if (!put_vertices(is_closed)) return std::nullopt;
+    put_faces(is_closed);
+    return std::move(made_);
+  }
+
+ private:
+  using Corner = std::uint32_t;  // 3 f + i, and the half-edge that leaves it
+  static constexpr Corner kNone = 0xFFFFFFFF;
+
+  static Corner next(Corner c) { return c % 3 == 2 ? c - 2 : c + 1; }
+  VertexId vertex(Corner c) const { return mesh_.triangles[FaceId{c / 3}][c % 3]; }
+  const Vec3& at(Corner c) const { return mesh_.positions[vertex(c)]; }
+  Corner corners() const { return static_cast<Corner>(twins_.size()); }
+
+  bool find_twins() {
+    std::unordered_map<std::uint64_t, Corner> by_ends;
+    const auto key = [](VertexId a, VertexId b) { return std::uint64_t(index(a)) << 32 | index(b); };
+    for (Corner c = 0; c < corners(); ++c)
+      if (!by_ends.emplace(key(vertex(c), vertex(next(c))), c).second) return false;
+    for (Corner c = 0; c < corners(); ++c)
+      if (const auto found = by_ends.find(key(vertex(next(c)), vertex(c))); found != by_ends.end())
+        twins_[c] = found->second;
+    return true;
+  }
+
+  Corner fan_of(Corner c) {
+    while (fan_[c] != c) c = fan_[c] = fan_[fan_[c]];
+    return c;
+  }
+
+  /// The corners of one vertex of the result are those joined by edges.
+  void find_fans() {
+    std::iota(fan_.begin(), fan_.end(), Corner{0});
+    for (Corner c = 0; c < corners(); ++c)
+      if (twins_[c] != kNone) fan_[fan_of(c)] = fan_of(next(twins_[c]));
+  }
+
+  /// None of a needle: its plane means nothing.
+  std::optional<Vec3> normal(Corner c) const {
+    const Vec3 a = at(c), u = at(next(c)) - a, v = at(next(next(c))) - a, n = cross(u, v);
+    const double longest = std::sqrt(std::max({squared_norm(u), squared_norm(v), squared_norm(u - v)}));
+    if (!(norm(n) > kJoined * distance_ * longest)) return std::nullopt;
+    return n / norm(n);
+  }
+
+  /// At a rim, also away from it.
+  bool put_vertices(bool is_closed) {
+    std::vector<std::vector<Vec3>> up(corners()), away(corners());
+    for (Corner c = 0; c < corners(); ++c) {
+      const auto n = normal(c);
+      if (!n) continue;
+      up[fan_of(c)].push_back(*n);
+      if (twins_[c] != kNone) continue;
+      const Vec3 edge = at(next(c)) - at(c), outwards = cross(edge, *n);
+      for (const Corner end : {c, next(c)}) away[fan_of(end)].push_back(outwards / norm(outwards));
+    }
+    top_.resize(corners()), bottom_.resize(corners());
+    for (Corner c = 0; c < corners(); ++c)
+      if (fan_of(c) == c) {
+        std::vector<Vec3> directions = away[c];
+        directions.insert(directions.end(), up[c].begin(), up[c].end());
+        if (!put(c, directions, top_)) return false;
+        for (std::size_t i = away[c].size(); i < directions.size(); ++i) directions[i] = -directions[i];
+        if (!is_closed && !put(c, directions, bottom_)) return false;
+      }
+    return true;
+  }
+
+  bool put(Corner c, const std::vector<Vec3>& directions, std::vector<VertexId>& where) {
+    const auto step = common_step(directions);
+    if (!step) return false;
+    where[c] = VertexId(static_cast<std::uint32_t>(made_.vertex_count()));
+    made_.positions.push_back(at(c) + *step * distance_);
+    return true;
+  }
+
+  void put_faces(bool is_closed) {
+    const auto top = [this](Corner c) { return top_[fan_of(c)]; };
+    const auto bottom = [this](Corner c) { return bottom_[fan_of(c)]; };
+    for (Corner c = 0; c < corners(); c += 3) made_.triangles.push_back({top(c), top(c + 1), top(c + 2)});
+    if (is_closed) return;
+    for (Corner c = 0; c < corners(); c += 3) made_.triangles.push_back({bottom(c), bottom(c + 2), bottom(c + 1)});
+    for (Corner c = 0; c < corners(); ++c)
+      if (const Corner n = next(c); twins_[c] == kNone) {
+        made_.triangles.push_back({top(n), top(c), bottom(c)});
+        made_.triangles.push_back({top(n), bottom(c), bottom(n)});
+      }
+  }
+
+  const TriangleMesh& mesh_;
+  const double distance_;
+  std::vector<Corner> twins_;  ///< the half-edges that go the other way; kNone at a rim
+  std::vector<Corner> fan_;
+  std::vector<VertexId> top_, bottom_;  ///< of fans
+  TriangleMesh made_;
+};
+
+}  // namespace
+
+std::optional<TriangleMesh> offset_surface(const TriangleMesh& mesh, double distance) {
+  const TriangleMesh joined = with_joined_vertices(mesh, kJoined * distance);
+  return Offset(joined, distance).made();
+}
+
+}  // namespace prohull
