@@ -106,7 +106,7 @@ std::string describe(const Folds& folds);
 struct Solid {
   Source source;
   TriangleMesh mesh;
-  double wrap_spacing = 0;     ///< of the grid of a wrap, in the input's unit
+  double wrap_spacing = 0;     ///< of the grid of a wrap, or the distance of an offset surface, in the input's unit
   double slab_width = 0;       ///< given to the convex hull of what is flat (slab_around), in the input's unit
   TriangleMesh doors = {};     ///< of a wrap: faces across what it closed, which a hull has to cover as well
   double largest_door = 0;     ///< as in Wrap

@@ -85,7 +85,8 @@ void Candidates::plan_offset() {
     constexpr double kNear = 0.125;  // of the bound; the rest is for collapses
     if (ranking.has_certified() && (ranking.best().hull.within_bounds || is_of_clean_mesh(ranking, solids)))
       return std::nullopt;
-    if (!request_.input.closed && solids.volume(target_faces_) > 0) return std::nullopt;
+    const bool is_sheet = !request_.input.closed;
+    if (is_sheet && (request_.options.seal_holes > 0 || solids.volume(target_faces_) > 0)) return std::nullopt;
     const auto id = solids.offset(kNear * bounds_.max_distance);
     return id ? std::optional(within(*id, bounds_.max_distance, solids)) : std::nullopt;
   });
@@ -94,7 +95,7 @@ void Candidates::plan_offset() {
 void Candidates::plan_bounded_wraps() {
   constexpr double kClose = 1.0 / 200;  // to the diagonal
   const double max_distance = bounds_.max_distance;
-  if (may_stay_within()) plan_offset();
+  if (may_stay_within() && request_.options.repair != Repair::Wrap) plan_offset();
   const bool is_close =
       max_distance < kClose * request_.diagonal || kBoundedSpacing * max_distance < finest_loose_spacing(request_);
   const double finest = finest_close_spacing(request_);

@@ -1,47 +1,47 @@
 #include "enclose/offset_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include "prohull/detail/disjoint_sets.h"
+#include "repair/steps.h"
 
 namespace prohull {
 namespace {
 
 constexpr double kJoined = 1e-2;  // of the distance: nearer vertices become one
 
-VertexId joined_with(PerVertex<VertexId>& parent, VertexId v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
-
-/// Without faces that vanish, and with each vertex in place of those near to it.
+/// Without faces that vanish, and with each vertex in place of those near to it. Faces agree about their sides, if they
+/// can.
 TriangleMesh with_joined_vertices(const TriangleMesh& mesh, double distance) {
-  std::vector<VertexId> by_x;
-  PerVertex<VertexId> parent(mesh.vertex_count());
-  for (const VertexId v : mesh.positions.ids()) by_x.push_back(v), parent[v] = v;
   const auto& at = mesh.positions;
+  std::vector<VertexId> by_x;
+  for (const VertexId v : at.ids()) by_x.push_back(v);
   std::ranges::stable_sort(by_x, {}, [&](VertexId v) { return at[v].x; });
+  DisjointSets joined(mesh.vertex_count());
   for (std::size_t i = 0; i < by_x.size(); ++i)
     for (std::size_t j = i + 1; j < by_x.size() && at[by_x[j]].x - at[by_x[i]].x <= distance; ++j)
-      if (norm(at[by_x[j]] - at[by_x[i]]) <= distance) {
-        const VertexId a = joined_with(parent, by_x[i]), b = joined_with(parent, by_x[j]);
-        parent[std::max(a, b)] = std::min(a, b);
-      }
-  TriangleMesh joined{mesh.positions, {}};
-  for (const auto& corners : mesh.triangles) {
-    std::array<VertexId, 3> now = corners;
-    for (VertexId& v : now) v = joined_with(parent, v);
-    if (now[0] != now[1] && now[1] != now[2] && now[2] != now[0]) joined.triangles.push_back(now);
+      if (norm(at[by_x[j]] - at[by_x[i]]) <= distance) joined.join(std::uint32_t(by_x[i]), std::uint32_t(by_x[j]));
+  TriangleMesh made{mesh.positions, {}};
+  for (std::array<VertexId, 3> corners : mesh.triangles) {
+    for (VertexId& v : corners) v = VertexId{joined.find(std::uint32_t(v))};
+    if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0])
+      made.triangles.push_back(corners);
   }
-  return joined;
+  Repairs repairs;
+  drop_duplicate_faces(made, repairs);
+  turn_single_faces(made, repairs);
+  return made;
 }
 
 /// The shortest vector whose product with each direction is at least 1, about: that to the point of their convex hull
-/// that is nearest to the origin (Gilbert's algorithm), divided by its squared length. None if it is long.
+/// that is nearest to the origin (Gilbert's algorithm), divided by its squared length. At sharp vertices it is shorter,
+/// so that it stays within a bound. None if no vector has positive products.
 std::optional<Vec3> common_step(const std::vector<Vec3>& directions) {
   constexpr int kMostSteps = 200;
   constexpr double kLongest = 6;
@@ -57,14 +57,14 @@ std::optional<Vec3> common_step(const std::vector<Vec3>& directions) {
     nearest = nearest + step * std::min(1.0, gain / squared_norm(step));
   }
   const double least = dot(nearest, lowest());
-  if (!(least > 0) || norm(nearest) > kLongest * least) return std::nullopt;
-  return nearest / least;
+  if (!(least > 0)) return std::nullopt;
+  return nearest / std::max(least, norm(nearest) / kLongest);
 }
 
 class Offset {
  public:
   Offset(const TriangleMesh& mesh, double distance)
-      : mesh_(mesh), distance_(distance), twins_(3 * mesh.face_count(), kNone), fan_(3 * mesh.face_count()) {}
+      : mesh_(mesh), distance_(distance), twins_(3 * mesh.face_count(), kNone), fans_(3 * mesh.face_count()) {}
 
   std::optional<TriangleMesh> made() {
     if (mesh_.face_count() == 0 || !find_twins()) return std::nullopt;
@@ -95,16 +95,12 @@ class Offset {
     return true;
   }
 
-  Corner fan_of(Corner c) {
-    while (fan_[c] != c) c = fan_[c] = fan_[fan_[c]];
-    return c;
-  }
+  Corner fan_of(Corner c) { return fans_.find(c); }
 
   /// The corners of one vertex of the result are those joined by edges.
   void find_fans() {
-    std::iota(fan_.begin(), fan_.end(), Corner{0});
     for (Corner c = 0; c < corners(); ++c)
-      if (twins_[c] != kNone) fan_[fan_of(c)] = fan_of(next(twins_[c]));
+      if (twins_[c] != kNone) fans_.join(c, next(twins_[c]));
   }
 
   /// None of a needle: its plane means nothing.
@@ -162,7 +158,7 @@ class Offset {
   const TriangleMesh& mesh_;
   const double distance_;
   std::vector<Corner> twins_;  ///< the half-edges that go the other way; kNone at a rim
-  std::vector<Corner> fan_;
+  DisjointSets fans_;
   std::vector<VertexId> top_, bottom_;  ///< of fans
   TriangleMesh made_;
 };

@@ -530,6 +530,30 @@ TEST(EnclosingHull, HasFurtherCollapsesWithinABound) {
   EXPECT_LT(inner.mesh.face_count(), 165U);
 }
 
+// Wraps of a tent of four faces missed bounds of 0.1 and 0.3 % of its diagonal.
+TEST(EnclosingHull, OfASheetOfFewFacesKeepsCloseBounds) {
+  TriangleMesh tent;
+  tent.positions = {{-1, 0, 1}, {1, 0, 1}, {-1, 0, -1}, {1, 0, -1}, {0, 0.7, 0}};
+  for (const auto& [a, b] : {std::pair{0u, 1u}, {1u, 3u}, {3u, 2u}, {2u, 0u}})
+    tent.triangles.push_back({VertexId{4}, VertexId{a}, VertexId{b}});
+  for (const double share : {0.001, 0.003}) {
+    const double bound = share * bounding_box(tent).diagonal();
+    const EnclosingHull hull = enclosing_hull(tent, 4, {.bounds = {.max_distance = bound}});
+    EXPECT_TRUE(hull.certified && hull.within_bounds) << share;
+    EXPECT_LE(hull.mesh.face_count(), 16U) << share;
+  }
+}
+
+// Levels alone have 25 % more faces, and do not move.
+TEST(EnclosingHull, HasFurtherCollapsesWithinABoundOfTheVoid) {
+  const TriangleMesh asteroid = make_sample("asteroid", 2000);
+  const HullBounds bounds{.max_void_ratio = 0.05};
+  const EnclosingHull hull = enclosing_hull(asteroid, 20, {.bounds = bounds}),
+                      level = enclosing_hull(asteroid, 20, {.bounds = bounds, .levels = true});
+  EXPECT_TRUE(hull.certified && hull.within_bounds && level.within_bounds);
+  EXPECT_LT(hull.mesh.face_count(), level.mesh.face_count());
+}
+
 // That of a closer one had a coarser wrap, and a void of 0.26 % for one of 0.12 %.
 TEST(EnclosingHull, OfACloserBoundIsNoLooserWhereItIsMissed) {
   const TriangleMesh mesh = make_sample("asteroid", 80);
