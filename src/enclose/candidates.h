@@ -70,6 +70,7 @@ class Candidates {
   Candidate moved(SolidId id) const;
   Candidate within(SolidId id, double max_distance, const Solids& solids) const;
   bool may_stay_within() const;
+  bool may_go_further() const;
 
   const Request& request_;
   const std::size_t target_faces_;

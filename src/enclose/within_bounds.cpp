@@ -1,6 +1,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "construct/shape_guards.h"
@@ -28,7 +29,7 @@ PerVertex<double> distances_from(const TriangleMesh& triangles, const TriangleMe
   return distances;
 }
 
-/// A hull with further collapses, which keep so much of the bound.
+/// A hull with further collapses, which keep so much of the bound of the distance, or all bounds of the void.
 struct FurtherTrial {
   HullResult result;
   TriangleMesh mesh;
@@ -45,14 +46,19 @@ TriangleMesh start_of(const TriangleMesh& hull, const Making& making) {
 
 FurtherTrial try_further(const TriangleMesh& start, double distance, const Making& making) {
   HullOptions how = making.hull_options();
-  how.tolerances.assign(start.face_count(), distance);
-  how.deviations = distances_from(making.to_cover(), start);
+  const bool is_of_void = std::isinf(distance);
+  if (!is_of_void) {
+    how.tolerances.assign(start.face_count(), distance);
+    how.deviations = distances_from(making.to_cover(), start);
+  }
   how.guards.max_overhang =
       overhang_left(bounding_box(start), bounding_box(making.request.input.original), how.guards.max_overhang);
   HullResult result = build_hull(start, how);
-  TriangleMesh base = result.hull.base();
-  const double excess = excess_of(base, making);
-  FurtherTrial trial{std::move(result), std::move(base), excess};
+  const auto keeps = [&](const TriangleMesh& level) { return excess_of(level, making) <= 1; };
+  TriangleMesh mesh =
+      is_of_void && keeps(start) ? result.hull.level(faces_within(result.hull, keeps)) : result.hull.base();
+  const double excess = excess_of(mesh, making);
+  FurtherTrial trial{std::move(result), std::move(mesh), excess};
   if (trial.excess > 1 && is_worth_moving(trial.mesh.face_count(), trial.excess)) {
     TriangleMesh moved = placed(trial.mesh, making);
     if (const double nearer = excess_of(moved, making); nearer < trial.excess)
