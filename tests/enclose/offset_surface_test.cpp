@@ -9,6 +9,8 @@
 namespace prohull {
 namespace {
 
+using namespace meshes;
+
 TEST(OffsetSurface, IsOutsideOfAClosedMesh) {
   const auto around = offset_surface(box({0, 0, 0}, {1, 1, 1}), 0.1);
   ASSERT_TRUE(around);
