@@ -19,14 +19,16 @@ constexpr double kJoined = 1e-2;  // of the distance: nearer vertices become one
 /// Without faces that vanish, and with each vertex in place of those near to it. Faces agree about their sides, if they
 /// can.
 TriangleMesh with_joined_vertices(const TriangleMesh& mesh, double distance) {
+  constexpr Vec3 kAlong{0.4, 0.52, 0.75};  // shorter than 1; few flat faces are at right angles to it
   const auto& at = mesh.positions;
-  std::vector<VertexId> by_x;
-  for (const VertexId v : at.ids()) by_x.push_back(v);
-  std::ranges::stable_sort(by_x, {}, [&](VertexId v) { return at[v].x; });
+  std::vector<std::pair<double, VertexId>> places;
+  for (const VertexId v : at.ids()) places.emplace_back(dot(kAlong, at[v]), v);
+  std::ranges::stable_sort(places, {}, [](const auto& place) { return place.first; });
   DisjointSets joined(mesh.vertex_count());
-  for (std::size_t i = 0; i < by_x.size(); ++i)
-    for (std::size_t j = i + 1; j < by_x.size() && at[by_x[j]].x - at[by_x[i]].x <= distance; ++j)
-      if (norm(at[by_x[j]] - at[by_x[i]]) <= distance) joined.join(std::uint32_t(by_x[i]), std::uint32_t(by_x[j]));
+  for (auto a = places.begin(); a != places.end(); ++a)
+    for (auto b = a + 1; b != places.end() && b->first - a->first <= distance; ++b)
+      if (norm(at[b->second] - at[a->second]) <= distance)
+        joined.join(std::uint32_t(a->second), std::uint32_t(b->second));
   TriangleMesh made{mesh.positions, {}};
   for (std::array<VertexId, 3> corners : mesh.triangles) {
     for (VertexId& v : corners) v = VertexId{joined.find(std::uint32_t(v))};
