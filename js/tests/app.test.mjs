@@ -2,8 +2,9 @@
 import assert from 'node:assert/strict';
 import {execFileSync, spawnSync} from 'node:child_process';
 import {createHash} from 'node:crypto';
-import {copyFileSync, existsSync, readdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {copyFileSync, cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {createServer} from 'node:http';
+import {createRequire} from 'node:module';
 import {basename, dirname, join} from 'node:path';
 import test from 'node:test';
 import {app, inBrowser, kPatience} from './pages.mjs';
@@ -171,6 +172,70 @@ test('cancel answers at once', {skip}, async () => {
   });
   console.log(`cancel answers after ${milliseconds.toFixed(1)} ms`);
   assert.equal(await text(page, 'problem'), 'Cancelled.');
+  await closed(page);
+});
+
+/** Drops files and folders as the mouse of the system does. */
+async function draggedIn(page, ...files) {
+  const client = await page.context().newCDPSession(page);
+  for (const type of ['dragEnter', 'dragOver', 'drop'])
+    await client.send('Input.dispatchDragEvent', {type, x: 200, y: 200, data: {items: [], files, dragOperationsMask: 1}});
+}
+
+const rows = (page) => page.evaluate(() => [...document.querySelectorAll('#links tr')].map((row) => [...row.cells].map((cell) => cell.textContent)));
+
+/** Unpacks an archive into a folder; returns the paths of its files. */
+function unpacked(bytes, folder) {
+  const files = createRequire(import.meta.url)('fflate').unzipSync(bytes);
+  for (const [name, content] of Object.entries(files)) {
+    mkdirSync(dirname(join(folder, name)), {recursive: true});
+    writeFileSync(join(folder, name), content);
+  }
+  return Object.keys(files);
+}
+
+/** The folder of a robot of three links: a mesh, two meshes of which one is a mirror image in millimetres, and one that is not there. */
+function robotFolder() {
+  const folder = join(scratch, 'arm');
+  run('sample', 'arm', '-o', folder);
+  const names = ['base_link', 'link1', 'link2'], text = readFileSync(join(folder, 'arm.urdf'), 'utf8');
+  writeFileSync(join(folder, 'arm.urdf'), text
+      .replaceAll(/  <(link|joint) name="([^"]*)"[\s\S]*?<\/\1>\n/g, (whole, tag, name) =>
+        (tag === 'link' ? names.includes(name) : /child link="link[12]"/.test(whole)) ? whole : '')
+      .replace('"meshes/visual/link2_cover.stl"', '"package://arm/meshes/visual/link2_cover.stl" scale="1 -1 0.5"'));
+  return folder;
+}
+
+test('the folder of a robot becomes a zip with a certified hull of each mesh, and a URDF that the command reads', {skip}, async () => {
+  const page = await opened({fragment: '#faces=100'}), folder = robotFolder();
+  await draggedIn(page, folder);
+  await page.waitForFunction(() => document.getElementById('stage-name').textContent.startsWith('mesh 2 of 4'));
+  await page.click('#cancel');
+  await settled(page);
+  assert.equal(await text(page, 'problem'), 'Cancelled.');
+  assert.ok(await page.isDisabled('#save-robot'));
+  await page.setInputFiles('#folder', folder);
+  await settled(page);
+  assert.equal(await text(page, 'problem'), '');
+  assert.equal(await text(page, 'found'), '3 links, 4 meshes.');
+  const shown = await rows(page);
+  assert.deepEqual(shown.map(([link, faces,,, certified]) => [link, faces, certified]),
+    ['base_link', 'link1', 'link2', 'link2'].map((link) => [link, '100', 'yes']));
+  await page.click('#links tr:last-child button');
+  await settled(page);
+  assert.equal(await page.getAttribute('#links tr:last-child button', 'aria-pressed'), 'true');
+  assert.equal(await text(page, 'faces'), '100');
+  const zip = await saved(page, 'save-robot');
+  assert.equal(basename(zip.path), 'arm_hulls.zip');
+  const old = readFileSync(join(folder, 'arm.urdf'), 'utf8'), paths = unpacked(zip.bytes, folder);
+  assert.deepEqual(paths.sort(), ['arm.urdf', ...['base_link', 'link1', 'link2', 'link2_2'].map((name) => `meshes/collision/${name}_hull.stl`), 'report.json'].sort());
+  const report = JSON.parse(readFileSync(join(folder, 'report.json')));
+  assert.deepEqual(report.left_out, []);
+  assert.ok(report.links.every(({hulls}) => hulls.every(({verdict}) => verdict.holds)));
+  console.log(JSON.stringify(report.links[2].hulls[1], null, 1));
+  for (const [hull, mesh] of [['base_link', 'base'], ['link1', 'link1'], ['link2', 'link2']])
+    assert.ok(run('verify', join(folder, `meshes/collision/${hull}_hull.stl`), join(folder, `meshes/visual/${mesh}.stl`)));
+  console.log(run('urdf', '--check', join(folder, 'arm.urdf')));
   await closed(page);
 });
 

@@ -5,18 +5,20 @@ import {readFragment, writeFragment} from '../src/act/address.js';
 import {readObjects} from '../src/data/objects.js';
 import {atMost, byId, counted, el, grouped, short} from '../src/panel/dom.js';
 import {View} from '../src/view.js';
+import {MOST_MEGABYTES, bytesOf, treeOfEntries, treeOfFiles, treeOfZip} from './robot/folder.js';
+import {Robots} from './robot/robots.js';
 import {commandOf, fillForm, formValues, isOneFile, optionsFor, pieceName, showOptions, stem, wanted} from './wanted.js';
 
-const MOST_MEGABYTES = 500;
 const MOST_FACES = 7e6;         // of the 4 GB that WebAssembly has, the scene of a hull takes 540 bytes for each face
 const SAMPLES = {bracket: 20000, pony: 100000, knot: 20000, asteroid: 20000, gyroid: 40000, torus: 5000};
 const REST = 300;              // milliseconds after which a level is measured
 const CAMERA = 'vtcads';       // of the address: what of a picture holds for any other part, too
+const MESH = /\.(stl|obj|ply|off|glb)(\.gz)?$/i;
 const CERTIFIED = /\.(stl|obj|ply|off)(\.gz)?$/i;  // files that prohull_check reads
 
 let part = null;               // {name, bytes, mesh, inspection}, and of a sample what it is called
 let made = null;               // {want, hull, isLevel}
-let view = null, job = null, measuring = 0;
+let view = null, job = null, measuring = 0, robots;
 let shown = {};                // of the address: what the picture shows
 
 const cameraOf = (values) => Object.fromEntries(Object.entries(values).filter(([key]) => CAMERA.includes(key)));
@@ -98,37 +100,51 @@ function showPart() {
       `diagonal ${short(diagonal)}; ${wrong}.`;
 }
 
-/** Shows a file, and makes what is wanted of it. `read` gives its name and its bytes, and what else a part has. */
-const take = (read, fragment = cameraOf(shown)) => run(async (running) => {
-  byId('result').hidden = byId('name').hidden = true;
+function refuseFaces(name, faces) {
+  if (faces > MOST_FACES)
+    throw new prohull.InputError(`${name} has ${grouped(faces)} faces, and this page takes parts of at most ` +
+        `${grouped(MOST_FACES)}. The program prohull takes larger ones.`);
+}
+
+/** An empty page. */
+function forget() {
+  for (const id of ['result', 'name']) byId(id).hidden = true;
   byId('found').textContent = '';
   part = made = null;
-  clear('Drop a part on this page, open a file, or take a sample.');
-  const next = await read(running);
+  robots.close();
+  showOptions();
+  clear('Drop a part or the folder of a robot on this page, open a file, or take a sample.');
+}
+
+/** Shows a file, and makes what is wanted of it. `read` gives its name and its bytes, and what else a part has. */
+const take = (read, fragment = cameraOf(shown)) => run(async (running) => {
+  forget();
+  await takePart(await read(running), fragment, running);
+});
+
+async function takePart(next, fragment, running) {
   next.mesh = await prohull.read(next.bytes, next.name, running);
   next.inspection = await prohull.inspect(next.mesh, running);
   running.signal.throwIfAborted();
-  if (next.inspection.faces > MOST_FACES)
-    throw new prohull.InputError(`${next.name} has ${grouped(next.inspection.faces)} faces, and this page takes parts of at most ` +
-        `${grouped(MOST_FACES)}. The program prohull takes larger ones.`);
+  refuseFaces(next.name, next.inspection.faces);
   part = next;
   showPart();
   const alone = prohull.scene(null, {...part.mesh, name: part.name}, {signal: running.signal})
       .then((scene) => made || running.signal.aborted ? null : draw(scene, cameraOf(fragment)));
   for (const {reason} of await Promise.allSettled([make(running, fragment), alone])) if (reason) throw reason;
-});
-
-async function fileOf(file) {
-  const megabytes = file.size / 1e6;
-  if (megabytes > MOST_MEGABYTES)
-    throw new prohull.InputError(`${file.name} has ${grouped(Math.ceil(megabytes))} MB, and this page takes files of at most ${MOST_MEGABYTES} MB. ` +
-        'The program prohull takes larger ones.');
-  try {
-    return {name: file.name, bytes: new Uint8Array(await file.arrayBuffer())};
-  } catch {
-    throw new prohull.InputError(`${file.name}: it cannot be read. Drop a file, not a folder.`);
-  }
 }
+
+/** Shows a folder or an archive: a robot, or the only mesh in it. */
+const takeTree = (read) => run(async (running) => {
+  forget();
+  const tree = await read();
+  running.signal.throwIfAborted();
+  const paths = [...tree.keys()], meshes = paths.filter((path) => MESH.test(path));
+  if (meshes.length === 1 && !paths.some((path) => /\.(urdf|xacro|sdf|xml)$/i.test(path)))
+    return takePart({name: meshes[0].slice(meshes[0].lastIndexOf('/') + 1), bytes: await tree.get(meshes[0]).read()}, cameraOf(shown), running);
+  showOptions(true);
+  await robots.open(tree, running);
+});
 
 async function sampleOf(name) {
   const faces = SAMPLES[name], file = `${name}.ply`;
@@ -262,19 +278,29 @@ async function copyCommand() {
 }
 
 function listen() {
-  const takeFile = (file) => file && take(() => fileOf(file));
-  byId('open').onclick = () => byId('file').click();
-  byId('file').onchange = (event) => {
-    takeFile(event.target.files[0]);
-    event.target.value = '';
+  const takeFiles = (files) => {
+    const [file] = files;
+    if (files.length > 1 || /\.urdf$/i.test(file?.name)) takeTree(() => treeOfFiles(files));
+    else if (/\.zip$/i.test(file?.name)) takeTree(async () => treeOfZip(file.name, await bytesOf(file)));
+    else if (file) take(async () => ({name: file.name, bytes: await bytesOf(file)}));
   };
+  for (const [button, input] of [['open', 'file'], ['open-folder', 'folder']]) {
+    byId(button).onclick = () => byId(input).click();
+    byId(input).onchange = (event) => {
+      const files = [...event.target.files];
+      event.target.value = '';
+      if (input === 'folder') takeTree(() => treeOfFiles(files));
+      else takeFiles(files);
+    };
+  }
   byId('sample').onchange = (event) => {
     if (event.target.value) take(() => sampleOf(event.target.value));
   };
   byId('part').onsubmit = (event) => event.preventDefault();
   byId('options').addEventListener('change', () => {
-    showOptions();
+    showOptions(robots.isOpen);
     remember();
+    if (robots.isOpen) run((running) => robots.make(running));
     if (part) run((running) => make(running, cameraOf(shown)));
   });
   byId('cancel').onclick = () => job?.abort();
@@ -289,9 +315,9 @@ function listen() {
   addEventListener('dragleave', over(false));
   addEventListener('drop', (event) => {
     over(false)(event);
-    const {files} = event.dataTransfer;
-    if (files.length > 1) complain(`These are ${files.length} files. Drop one at a time.`);
-    else takeFile(files[0]);
+    const {files, items} = event.dataTransfer, entries = [...items].map((item) => item.webkitGetAsEntry()).filter(Boolean);
+    if (entries.some((entry) => entry.isDirectory)) takeTree(() => treeOfEntries(entries));
+    else takeFiles([...files]);
   });
 }
 
@@ -306,6 +332,7 @@ function open() {
   byId('most').textContent = `${MOST_MEGABYTES} MB and ${grouped(MOST_FACES)} faces`;
   byId('sample').append(...Object.keys(SAMPLES).map((name) => el('option', {value: name}, name)));
   fillForm(fragment);
+  robots = new Robots({run, draw, save, refuseFaces});
   document.documentElement.dataset.ready = 'yes';
   if (typeof WebAssembly !== 'object') return complain('This browser has no WebAssembly, which this page needs to build hulls. Use another browser, or the program prohull.');
   listen();

@@ -22,10 +22,10 @@ export function fillForm(values) {
   showOptions();
 }
 
-/** Only the options of what is to be made. */
-export function showOptions() {
+/** Only the options of what is to be made: that is chosen for parts, and hulls for robots. */
+export function showOptions(isRobot = false) {
   for (const element of document.querySelectorAll('[data-for]'))
-    element.hidden = !element.dataset.for.split(' ').includes(kept('make'));
+    element.hidden = !element.dataset.for.split(' ').includes(isRobot ? 'robot' : kept('make'));
 }
 
 const quoted = (text) => /^[\w.%+:,/-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
@@ -62,12 +62,14 @@ export function pieceName({stem, count}, i) {
 /** What the form asks for; lengths are as they were written, and become numbers in `optionsFor`. */
 export function wanted(part) {
   const values = Object.fromEntries(Object.keys(DEFAULTS).map((name) => [name, kept(name)]));
-  for (const name of ['faces', 'count', 'void']) {
-    const why = field(name).labels[0].hidden ? '' : whyNot(field(name), RANGES[name === 'count' ? values.make : name]);
-    if (why) refuse(name, why);
-  }
+  for (const name of ['faces', 'count', 'void']) check(name, RANGES[name === 'count' ? values.make : name]);
   const suffix = values.make === 'spheres' ? 'json' : values.to, own = stem(part.name).replace(/[{}]/g, '_');  // the command fills in {name}
   return {...values, isTight: values.tight === '1', out: `${own}_${values.make}.${suffix}`, stem: own};
+}
+
+function check(name, range) {
+  const why = field(name).labels[0].hidden ? '' : whyNot(field(name), range);
+  if (why) refuse(name, why);
 }
 
 function refuse(name, why) {
@@ -91,6 +93,16 @@ export async function optionsFor(want, part) {
       : want.make === 'pieces' ? {pieces: Number(want.count), maxDistance, maxVoidPercent, float32Coordinates}
       : {count: Number(want.count), maxDistance};
   return Object.fromEntries(Object.entries(all).filter(([, value]) => value !== undefined));
+}
+
+/** For each mesh of a robot, whose lengths are in metres: bare numbers are millimetres. */
+export function robotOptions() {
+  check('faces', RANGES.faces);
+  const [, number, unit] = /^([\d.]+)\s*(%|mm)?$/.exec(kept('distance')) ?? [];
+  if (kept('distance') !== '' && !(Number(number) > 0)) refuse('distance', `expected millimetres, or a share of the diagonal, as 1%, not ${kept('distance')}`);
+  const isShare = unit === '%', bounds = number === undefined || isShare ? {} : {maxDistance: Number(number) / 1000};
+  return {faces: Number(kept('faces')), share: isShare ? `${number}%` : null,
+    options: {tight: kept('tight') === '1', float32Coordinates: true, relaxGuards: true, ...bounds}};
 }
 
 const flags = (pairs) => pairs.filter(([, value]) => value !== '' && value !== false)
