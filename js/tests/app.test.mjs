@@ -5,7 +5,7 @@ import {createHash} from 'node:crypto';
 import {copyFileSync, cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {createServer} from 'node:http';
 import {createRequire} from 'node:module';
-import {basename, dirname, join} from 'node:path';
+import {basename, dirname, join, relative} from 'node:path';
 import test from 'node:test';
 import {app, inBrowser, kPatience} from './pages.mjs';
 import {hasProgram, run, scratch} from './package.mjs';
@@ -175,11 +175,30 @@ test('cancel answers at once', {skip}, async () => {
   await closed(page);
 });
 
-/** Drops files and folders as the mouse of the system does. */
-async function draggedIn(page, ...files) {
-  const client = await page.context().newCDPSession(page);
-  for (const type of ['dragEnter', 'dragOver', 'drop'])
-    await client.send('Input.dispatchDragEvent', {type, x: 200, y: 200, data: {items: [], files, dragOperationsMask: 1}});
+/** Drops a folder: entries as a browser makes them, which give what is in a folder piece by piece. */
+async function droppedFolder(page, folder) {
+  const files = readdirSync(folder, {recursive: true, withFileTypes: true}).filter((entry) => entry.isFile())
+      .map((entry) => join(entry.parentPath ?? entry.path, entry.name))
+      .map((path) => [relative(dirname(folder), path), readFileSync(path).toString('base64')]);
+  await page.evaluate((given) => {
+    const folderEntry = (path, inside) => {
+      const names = [...new Set(inside.map(([name]) => name.split('/')[0]))];
+      const left = names.map((name) => {
+        const found = inside.find(([whole]) => whole === name), fullPath = `${path}/${name}`;
+        if (!found) return folderEntry(fullPath, inside.filter(([whole]) => whole.startsWith(`${name}/`)).map(([whole, content]) => [whole.slice(name.length + 1), content]));
+        const file = new File([Uint8Array.from(atob(found[1]), (c) => c.charCodeAt(0))], name);
+        return {isFile: true, isDirectory: false, fullPath, file: (resolve) => resolve(file)};
+      });
+      const createReader = () => {
+        const rest = [...left];
+        return {readEntries: (resolve) => resolve(rest.splice(0, 2))};
+      };
+      return {isFile: false, isDirectory: true, fullPath: path, createReader};
+    };
+    const items = [{webkitGetAsEntry: () => folderEntry('', given)}];
+    const event = new Event('drop', {bubbles: true, cancelable: true});
+    document.getElementById('stage').dispatchEvent(Object.assign(event, {dataTransfer: {files: [], items}}));
+  }, files);
 }
 
 const rows = (page) => page.evaluate(() => [...document.querySelectorAll('#links tr')].map((row) => [...row.cells].map((cell) => cell.textContent)));
@@ -208,7 +227,7 @@ function robotFolder() {
 
 test('the folder of a robot becomes a zip with a certified hull of each mesh, and a URDF that the command reads', {skip}, async () => {
   const page = await opened({fragment: '#faces=100'}), folder = robotFolder();
-  await draggedIn(page, folder);
+  await droppedFolder(page, folder);
   await page.waitForFunction(() => document.getElementById('stage-name').textContent.startsWith('mesh 2 of 4'));
   await page.click('#cancel');
   await settled(page);
@@ -224,18 +243,56 @@ test('the folder of a robot becomes a zip with a certified hull of each mesh, an
   await page.click('#links tr:last-child button');
   await settled(page);
   assert.equal(await page.getAttribute('#links tr:last-child button', 'aria-pressed'), 'true');
-  assert.equal(await text(page, 'faces'), '100');
-  const zip = await saved(page, 'save-robot');
+  assert.match(await text(page, 'content'), /link2_2_hull\.stl covers arm\/meshes\/visual\/link2_cover\.stl: decided exactly/);
+  const zip = await saved(page, 'save-robot'), own = join(scratch, 'arm_own');
   assert.equal(basename(zip.path), 'arm_hulls.zip');
-  const old = readFileSync(join(folder, 'arm.urdf'), 'utf8'), paths = unpacked(zip.bytes, folder);
-  assert.deepEqual(paths.sort(), ['arm.urdf', ...['base_link', 'link1', 'link2', 'link2_2'].map((name) => `meshes/collision/${name}_hull.stl`), 'report.json'].sort());
+  run('urdf', join(folder, 'arm.urdf'), '-o', own, '--faces', '100', '--configurations', '0', '--prove', '0', '--no-pictures', '--no-cache');
+  const old = readFileSync(join(folder, 'arm.urdf'), 'utf8'), hulls = ['base_link', 'link1', 'link2_2', 'link2'].map((name) => `meshes/collision/${name}_hull.stl`);
+  assert.deepEqual(unpacked(zip.bytes, folder).sort(), ['arm.urdf', ...hulls, 'report.json']);
+  const withoutCollisions = (urdf) => urdf.replaceAll(/\s*<collision>[^]*?<\/collision>/g, '');
+  assert.equal(withoutCollisions(readFileSync(join(folder, 'arm.urdf'), 'utf8')), withoutCollisions(old));
   const report = JSON.parse(readFileSync(join(folder, 'report.json')));
-  assert.deepEqual(report.left_out, []);
-  assert.ok(report.links.every(({hulls}) => hulls.every(({verdict}) => verdict.holds)));
-  console.log(JSON.stringify(report.links[2].hulls[1], null, 1));
-  for (const [hull, mesh] of [['base_link', 'base'], ['link1', 'link1'], ['link2', 'link2']])
-    assert.ok(run('verify', join(folder, `meshes/collision/${hull}_hull.stl`), join(folder, `meshes/visual/${mesh}.stl`)));
-  console.log(run('urdf', '--check', join(folder, 'arm.urdf')));
+  assert.deepEqual([report.left_out, report.links.map(({certified}) => certified)], [[], [true, true, true]]);
+  for (const {file, read_from, scale, verdict} of report.links.flatMap((link) => link.hulls)) {
+    assert.ok(verdict.holds);
+    if (scale.every((x) => x === 1)) assert.ok(run('verify', join(folder, file), join(dirname(folder), read_from)), file);
+  }
+  for (const link of ['base_link', 'link1'])  // the command makes one hull of both meshes of link2
+    assert.equal(hash(readFileSync(join(folder, `meshes/collision/${link}_hull.stl`))), hash(readFileSync(join(own, `meshes/collision/${link}.stl`))), link);
+  assert.ok(run('urdf', '--check', join(folder, 'arm.urdf')));  // of the mirror image, too
+  await closed(page);
+});
+
+test('a robot of a stranger stays harmless', {skip}, async () => {
+  const {strToU8, zipSync} = createRequire(import.meta.url)('fflate'), page = await opened({fragment: '#faces=100&distance=5'});
+  const tetrahedron = strToU8('v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n'), html = '<img src=x onerror=alert(1)>';
+  const link = (name, file) => `<link name="${name.replaceAll('<', '&lt;')}"><visual><geometry><mesh filename="${file}"/></geometry></visual></link>`;
+  const files = {'../up.obj': tetrahedron, '/etc/a.obj': tetrahedron, [`b/${html}.obj`]: tetrahedron, 'b/broken.stl': strToU8('x'), 'b/z.urdf': strToU8('<robot/>'), 'b/report.json': strToU8('{}'),
+    [`b/${html}.urdf`]: strToU8(`<robot>${link('../../up', '../etc/a.obj')}${link(html, `${html.replaceAll('<', '&lt;')}.obj`)}${link('c', '../../up.obj')}${link('d', 'broken.stl')}${link('e', 'e.dae')}</robot>`)};
+  const path = join(scratch, 'stranger.zip');
+  writeFileSync(path, zipSync(files));
+  await page.setInputFiles('#file', path);
+  await settled(page);
+  assert.equal(await text(page, 'problem'), '');
+  assert.equal(await page.locator('img').count(), 0);
+  assert.deepEqual((await rows(page)).map((cells) => [cells[0], cells.length > 2 ? cells[4] : cells[1].slice(0, 12)]),
+    [['../../up', 'yes'], [html, 'yes'], ['d', 'b/broken.stl']]);
+  assert.match(await text(page, 'left-out'), /^c keeps what it has: .*it leads out of the folder.*COLLADA/);
+  const zip = await saved(page, 'save-robot');
+  const made = createRequire(import.meta.url)('fflate').unzipSync(zip.bytes);
+  assert.deepEqual(Object.keys(made).sort(), ['_img src=x onerror=alert(1)_.urdf', 'meshes/collision/_.._.._up_hull.stl', 'meshes/collision/_img_src_x_onerror_alert_1___hull.stl', 'report.json']);
+  assert.deepEqual(JSON.parse(Buffer.from(made['report.json'])).left_out.map((left) => left.link), ['c', 'd', 'e']);
+  await page.selectOption('#robot-file', 'b/z.urdf');
+  await settled(page);
+  assert.match(await text(page, 'problem'), /^b\/z\.urdf: line 1: the robot has no links/);
+  for (const [name, content, says] of [['noise.zip', Buffer.alloc(99), /^noise\.zip: it cannot be unpacked/], ['none.zip', zipSync({'a.txt': tetrahedron}), /^There is no \.urdf file/],
+    ['mesh.zip', zipSync({'x/a.obj': tetrahedron}), /^$/]]) {
+    writeFileSync(join(scratch, name), content);
+    await page.setInputFiles('#file', join(scratch, name));
+    await settled(page);
+    assert.match(await text(page, 'problem'), says, name);
+  }
+  assert.match(await text(page, 'summary'), /certified: yes/);
   await closed(page);
 });
 

@@ -25,7 +25,8 @@ const DEFINED = {'import.meta.url': '"https://page.invalid/"'};  // where nothin
 async function libraryParts() {
   const module = zlib.deflateSync(fs.readFileSync(inPackage('module.wasm')), {level: 9}).toString('base64');
   const worker = await bundled(inPackage('worker_browser.js'), {define: DEFINED});
-  const licence = fs.readFileSync(inPackage('LICENSE'), 'utf8');  // of all that is compiled in
+  const ofArchives = fs.readFileSync(path.join(require.resolve('fflate'), '..', '..', 'LICENSE'), 'utf8');
+  const licence = `${fs.readFileSync(inPackage('LICENSE'), 'utf8')}\nfflate, which reads and writes archives:\n\n${ofArchives}`;  // of all that is in it
   return {'<!--module-->': module, '<!--worker-->': worker, '<!--licence-->': licence};
 }
 

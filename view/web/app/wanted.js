@@ -26,6 +26,7 @@ export function fillForm(values) {
 export function showOptions(isRobot = false) {
   for (const element of document.querySelectorAll('[data-for]'))
     element.hidden = !element.dataset.for.split(' ').includes(isRobot ? 'robot' : kept('make'));
+  field('distance').placeholder = isRobot ? 'any; mm or 1%' : 'any; 0.5 or 1%';
 }
 
 const quoted = (text) => /^[\w.%+:,/-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;

@@ -36,7 +36,7 @@ export class Robots {
   async open(tree, running) {
     const urdfs = [...tree.keys()].filter((path) => /\.urdf$/i.test(path)).sort();
     if (urdfs.length === 0)
-      throw new prohull.InputError('There is no .urdf file among these files. SDF, MJCF and xacro files are read by the program prohull.');
+      throw new prohull.InputError('There is no .urdf file among these files. Drop meshes one at a time. SDF, MJCF and xacro files are read by the program prohull.');
     byId('robot-file').replaceChildren(...urdfs.map((path) => el('option', {value: path}, path)));
     byId('robot-file').hidden = urdfs.length === 1;
     await this.#take({tree, packages: await packagesOf(tree), urdf: urdfs[0]}, running);
@@ -101,13 +101,13 @@ export class Robots {
   }
 
   #row(link, work) {
-    const {hull, bytes, why} = this.#robot.outcomes.get(work) ?? {};
+    const {hull, why} = this.#robot.outcomes.get(work) ?? {};
     if (!hull || why) return el('tr', {}, el('th', {scope: 'row'}, link.name), el('td', {colspan: 4}, why ?? '…'));
     const show = () => this.#page.run((running) => this.#show(work, running));
     const name = el('button', {'type': 'button', 'aria-pressed': 'false', 'data-hull': work.out, 'title': work.path, 'onclick': show}, link.name);
     return el('tr', {}, el('th', {scope: 'row'}, name), el('td', {}, grouped(hull.faces.length / 3)),
         el('td', {}, Number.isFinite(hull.voidRatio) ? percent(hull.voidRatio) : '–'),
-        el('td', {}, `${atMost(1000 * hull.distance)}${hull.withinBounds ? '' : ' (NOT within the bound)'}`), el('td', {}, bytes ? 'yes' : 'no'));
+        el('td', {}, `${atMost(1000 * hull.distance)}${hull.withinBounds ? '' : ' (NOT within the bound)'}`), el('td', {}, 'yes'));
   }
 
   #tell() {

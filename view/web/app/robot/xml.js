@@ -39,7 +39,8 @@ export function parseXml(text) {
     if (token === '<') throw new UrdfError(text, index, 'this is no XML that is read here; document types are not');
     if (closed !== undefined) {
       const element = open.pop();
-      if (element.name !== closed) throw new UrdfError(text, index, `</${closed}> closes no <${closed}>`);
+      if (element.name !== closed)
+        throw new UrdfError(text, index, `</${closed}> stands where ${element === top ? 'nothing is open' : `</${element.name}> is expected`}`);
       element.end = end;
     } else if (name !== undefined) {
       const element = {name, attributes: attributesOf(text, index, attributes), children: [], begin: index, inner: end, end};
