@@ -7,6 +7,7 @@ import {robotOptions} from '../wanted.js';
 import {packagesOf} from './folder.js';
 import {planOf, scaled, whyLeft, withHulls} from './urdf.js';
 
+const MOST_URDF = 2 ** 25;  // bytes
 const SCOPE = 'Proven of each hull, as written: it encloses the mesh file that is named beside it, scaled as the URDF says. Poses are the URDF\'s, and joints are not looked at.';
 
 const text8 = (bytes) => new TextDecoder('utf-8', {fatal: true, ignoreBOM: true}).decode(bytes);  // so that all bytes come back
@@ -48,6 +49,7 @@ export class Robots {
     byId('name').textContent = urdf;
     byId('found').textContent = '';
     this.#tell();
+    if (tree.get(urdf).size > MOST_URDF) throw new prohull.InputError(`${urdf}: it is too large for the file of a robot.`);
     try {
       this.#robot.plan = planOf(text8(await tree.get(urdf).read()), {robot: urdf, paths: new Set(tree.keys()), packages});
     } catch (error) {
