@@ -7,13 +7,13 @@ import {atMost, byId, counted, el, grouped, short} from '../src/panel/dom.js';
 import {View} from '../src/view.js';
 import {MOST_MEGABYTES, bytesOf, treeOfEntries, treeOfFiles, treeOfZip} from './robot/folder.js';
 import {Robots} from './robot/robots.js';
+import {READ} from './robot/urdf.js';
 import {commandOf, fillForm, formValues, isOneFile, optionsFor, pieceName, showOptions, stem, wanted} from './wanted.js';
 
 const MOST_FACES = 7e6;         // of the 4 GB that WebAssembly has, the scene of a hull takes 540 bytes for each face
 const SAMPLES = {bracket: 20000, pony: 100000, knot: 20000, asteroid: 20000, gyroid: 40000, torus: 5000};
 const REST = 300;              // milliseconds after which a level is measured
 const CAMERA = 'vtcads';       // of the address: what of a picture holds for any other part, too
-const MESH = /\.(stl|obj|ply|off|glb)(\.gz)?$/i;
 const CERTIFIED = /\.(stl|obj|ply|off)(\.gz)?$/i;  // files that prohull_check reads
 
 let part = null;               // {name, bytes, mesh, inspection}, and of a sample what it is called
@@ -139,7 +139,7 @@ const takeTree = (read) => run(async (running) => {
   forget();
   const tree = await read();
   running.signal.throwIfAborted();
-  const paths = [...tree.keys()], meshes = paths.filter((path) => MESH.test(path));
+  const paths = [...tree.keys()], meshes = paths.filter((path) => READ.test(path));
   if (meshes.length === 1 && !paths.some((path) => /\.(urdf|xacro|sdf|xml)$/i.test(path)))
     return takePart({name: meshes[0].slice(meshes[0].lastIndexOf('/') + 1), bytes: await tree.get(meshes[0]).read()}, cameraOf(shown), running);
   showOptions(true);
@@ -332,7 +332,7 @@ function open() {
   byId('most').textContent = `${MOST_MEGABYTES} MB and ${grouped(MOST_FACES)} faces`;
   byId('sample').append(...Object.keys(SAMPLES).map((name) => el('option', {value: name}, name)));
   fillForm(fragment);
-  robots = new Robots({run, draw, save, refuseFaces});
+  robots = new Robots({run, draw, clear, save, refuseFaces});
   document.documentElement.dataset.ready = 'yes';
   if (typeof WebAssembly !== 'object') return complain('This browser has no WebAssembly, which this page needs to build hulls. Use another browser, or the program prohull.');
   listen();

@@ -40,22 +40,27 @@ export class Robots {
       throw new prohull.InputError('There is no .urdf file among these files. Drop meshes one at a time. SDF, MJCF and xacro files are read by the program prohull.');
     byId('robot-file').replaceChildren(...urdfs.map((path) => el('option', {value: path}, path)));
     byId('robot-file').hidden = urdfs.length === 1;
-    await this.#take({tree, packages: await packagesOf(tree), urdf: urdfs[0]}, running);
+    const packages = await packagesOf(tree);
+    running.signal.throwIfAborted();
+    await this.#take({tree, packages, urdf: urdfs[0]}, running);
   }
 
   async #take({tree, packages, urdf}, running) {
-    this.#robot = {tree, packages, urdf, plan: null, outcomes: new Map()};
+    const robot = this.#robot = {tree, packages, urdf, plan: null, outcomes: new Map()};
+    this.#page.clear('');
     byId('robot').hidden = byId('name').hidden = false;
     byId('name').textContent = urdf;
     byId('found').textContent = '';
     this.#tell();
     if (tree.get(urdf).size > MOST_URDF) throw new prohull.InputError(`${urdf}: it is too large for the file of a robot.`);
+    const bytes = await tree.get(urdf).read();
+    running.signal.throwIfAborted();
     try {
-      this.#robot.plan = planOf(text8(await tree.get(urdf).read()), {robot: urdf, paths: new Set(tree.keys()), packages});
+      robot.plan = planOf(text8(bytes), {robot: urdf, paths: new Set(tree.keys()), packages});
     } catch (error) {
       throw new prohull.InputError(`${urdf}: ${error instanceof TypeError ? 'it is no UTF-8 text' : error.message}`);
     }
-    const {links, works} = this.#robot.plan;
+    const {links, works} = robot.plan;
     byId('found').textContent = `${counted(links.length, 'link', 'links')}, ${counted(works.length, 'mesh', 'meshes')}.`;
     await this.make(running);
   }

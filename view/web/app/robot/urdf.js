@@ -3,7 +3,7 @@
 import {placeOf} from './places.js';
 import {UrdfError, childrenCalled, edited, parseXml} from './xml.js';
 
-const READ = /\.(stl|obj|ply|off|glb)(\.gz)?$/i;
+export const READ = /\.(stl|obj|ply|off|glb)(\.gz)?$/i;
 const PRIMITIVES = ['box', 'sphere', 'cylinder', 'capsule'];
 const NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
 const LONGEST = 100;  // characters of a name, as of the command
