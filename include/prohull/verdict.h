@@ -22,7 +22,8 @@ enum class Answer {
 /// one tells it, with the same names in reports and in Python; docs/proofs.md has the words. What was not asked, not
 /// decided or not measured is NotAsked, Undecided or empty.
 struct Verdict {
-  bool certified = false;    ///< the answer: what the record says is proven; of verify_hull, the gap that was asked for too
+  bool certified =
+      false;  ///< the answer: what the record says is proven; of verify_hull, the gap that was asked for too
   std::string why_not = {};  ///< why the answer is no; empty if it is yes
   /// How it was decided: "replay" of the vertex splits of a progressive hull, "enclosure" of one closed mesh by
   /// another, "coverage" of every triangle of an original that is not closed, "union" of pieces or spheres, "padding"

@@ -191,11 +191,10 @@ class Judge {
     found.least_distance = report.least_distance;
     const bool is_open = found.is_any(Answer::Undecided) && !found.is_any(Answer::No);
     if (found.keeps_gap || !(found.encloses || (is_open && found.faces_too_near > 0))) return;
-    found.why_not =
-        found.faces_too_near > 0
-            ? fmt::format("{} of it {} nearer to the original than that", counted(found.faces_too_near, "face"),
-                          found.faces_too_near == 1 ? "is" : "are")
-            : verify::undecided(report.faces_undecided);
+    found.why_not = found.faces_too_near > 0
+                        ? fmt::format("{} of it {} nearer to the original than that",
+                                      counted(found.faces_too_near, "face"), found.faces_too_near == 1 ? "is" : "are")
+                        : verify::undecided(report.faces_undecided);
   }
 
   void measure(verify::KnownSolid& hull) {
