@@ -274,7 +274,7 @@ bool winds_negatively(TriangleMesh mesh, const Progress& progress) {
 }
 
 std::string undecided(std::size_t faces) {
-  return fmt::format("undecided: the search was ended before {} {} decided; allow more steps", counted(faces, "face"),
+  return fmt::format("the search was ended before {} {} decided; allow more steps", counted(faces, "face"),
                      faces == 1 ? "was" : "were");
 }
 

@@ -157,7 +157,7 @@ TEST(HullsThatOverlapOften, AreNotSaidToEncloseWhereFacesAreUndecided) {
       EXPECT_EQ(report.faces_outside, 0U) << steps;
     }
   }
-  EXPECT_EQ(verify::undecided(2), "undecided: the search was ended before 2 faces were decided; allow more steps");
+  EXPECT_EQ(verify::undecided(2), "the search was ended before 2 faces were decided; allow more steps");
   const EnclosureReport clean = verify_enclosure(octahedron(), box({-1, -1, -1}, {1, 1, 1}), {.max_steps = 0});
   EXPECT_TRUE(clean.encloses) << "without contacts no step is taken";
 }
