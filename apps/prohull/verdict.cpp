@@ -42,7 +42,7 @@ nlohmann::json SizeComparison::facts() const {
 
 int exit_code_of(const Verdict& verdict, bool is_sure) {
   if (verdict.certified) return is_sure ? kDone : kAnswerIsNo;
-  return is_undecided(verdict) ? kUndecided : kAnswerIsNo;
+  return verdict.is_undecided() ? kUndecided : kAnswerIsNo;
 }
 
 nlohmann::json facts(const Folds& folds) {

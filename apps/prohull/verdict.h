@@ -30,8 +30,6 @@ class SizeComparison {
   double ratio_ = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// What was asked is not decided: neither yes nor no.
-inline bool is_undecided(const Verdict& verdict) { return !verdict.is_yes() && !verdict.is_any(Answer::No); }
 /// Of a verdict that was asked for; `is_sure` is false where units are in doubt.
 int exit_code_of(const Verdict& verdict, bool is_sure);
 

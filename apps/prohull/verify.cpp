@@ -61,8 +61,6 @@ bool has_failed_replay(const Verification& found) {
   return found.proof == "replay" && !found.encloses && std::isnan(found.hull_volume);
 }
 
-bool is_gap_undecided(const Verification& found) { return !found.keeps_gap && found.faces_too_near == 0; }
-
 /// "yes: hull.stl encloses part.stl", or why not.
 std::string verdict(const Verification& found, const SizeComparison& sizes, const VerifyOptions& options, double gap) {
   const std::string hull = input_name(options.hull), original = input_name(options.original);
@@ -71,10 +69,10 @@ std::string verdict(const Verification& found, const SizeComparison& sizes, cons
   const bool base_only = !found.encloses || found.faces_beside_solid > 0;
   const std::string levels = replayed ? (base_only ? "the base mesh of " : "every level of ") + hull : hull;
   const std::string what = claim(found, levels, original);
-  if (!found.encloses && !(is_undecided(found) && found.faces_too_near > 0))
-    return fmt::format("{}: {}{}: {}", is_undecided(found) ? "UNDECIDED" : "NO", what,
+  if (!found.encloses && !(found.is_undecided() && found.faces_too_near > 0))
+    return fmt::format("{}: {}{}: {}", found.is_undecided() ? "UNDECIDED" : "NO", what,
                        found.is_yes() ? ", but there is more" : "", found.why_not);
-  if (is_gap_undecided(found))
+  if (found.is_gap_undecided())
     return fmt::format("UNDECIDED: {}, and may keep the gap of {:.9g}: {}", what, gap, found.why_not);
   if (!found.keeps_gap)
     return fmt::format("NO: {}, but {} does not keep the gap of {:.{}g}: {}", what, hull, gap,
@@ -138,7 +136,7 @@ nlohmann::json report_of(const VerifyOptions& options, const Verification& found
                          {"seconds", seconds}};
   if (gap > 0) {
     json["gap_asked"] = gap;
-    json["keeps_gap"] = is_gap_undecided(found) ? nlohmann::json() : nlohmann::json(found.keeps_gap);
+    json["keeps_gap"] = found.is_gap_undecided() ? nlohmann::json() : nlohmann::json(found.keeps_gap);
     json["least_distance"] = finite_or_null(found.least_distance);
     json["faces_too_near"] = found.faces_too_near;
     json["nearest"] = near_facts(found.nearest);
@@ -194,7 +192,7 @@ int run_verify(const VerifyOptions& options) {
   say_more("  hull of {}, original of {}; proof by {}; read {:.2f} s\n", counted(face_count(hull), "face"),
            counted(original.face_count(), "face"), found.proof, read_seconds);
   if (has_failed_replay(found) || found.faces_too_near > 0) return kAnswerIsNo;
-  if (found.encloses && is_gap_undecided(found)) return kUndecided;
+  if (found.encloses && found.is_gap_undecided()) return kUndecided;
   return exit_code_of(found, options.any_scale || !sizes.is_doubtful());
 }
 
@@ -271,9 +269,9 @@ void add_verify(CLI::App& app, Run& run) {
       ->excludes(is_union);
   add_optional_number(
       command, "--steps", options->max_steps, {1, 1e15},
-      "Largest number of steps of each search for parts that lie outside, for holes, and for faces nearer "
-      "than the gap: what is left then is undecided, and the exit code is 4 if nothing else says no. Without this "
-      "option it is two "
+      "Largest number of steps of each search for parts that lie outside, for holes, and for faces nearer than the "
+      "gap: "
+      "what is left then is undecided, and the exit code is 4 if nothing else says no. Without this option it is two "
       "billion and 2,000 for each face of ORIGINAL, which take some minutes.");
   add_report_option(command, options->report);
   add_examples(

@@ -58,7 +58,7 @@ std::string verdict(const Union& all, const VerifyOptions& options, const UnionV
   if (found.certified && sizes.is_doubtful() && !options.any_scale)
     return fmt::format("UNITS: {}, exactly, but {}", what, sizes.doubt());
   if (found.certified) return fmt::format("yes: {}, exactly", what);
-  if (is_undecided(found)) return "UNDECIDED: " + found.why_not;
+  if (found.is_undecided()) return "UNDECIDED: " + found.why_not;
   return fmt::format("NO: {}{}: {}", what, found.is_yes() ? ", but there is more" : "", found.why_not);
 }
 

@@ -22,8 +22,8 @@ enum class Answer {
 /// one tells it, with the same names in reports and in Python; docs/proofs.md has the words. What was not asked, not
 /// decided or not measured is NotAsked, Undecided or empty.
 struct Verdict {
-  bool certified =
-      false;  ///< the answer: what the record says is proven; of verify_hull, the gap that was asked for too
+  /// The answer: what the record says is proven. Of verify_hull, the gap that was asked for is kept, too.
+  bool certified = false;
   std::string why_not = {};  ///< why the answer is no; empty if it is yes
   /// How it was decided: "replay" of the vertex splits of a progressive hull, "enclosure" of one closed mesh by
   /// another, "coverage" of every triangle of an original that is not closed, "union" of pieces or spheres, "padding"
@@ -49,6 +49,8 @@ struct Verdict {
   const DistanceBounds& distance() const { return distance_to_solid ? *distance_to_solid : *distance_to_triangles; }
   /// All that was asked of the finite triangles is proven.
   bool is_yes() const { return !is_any(Answer::No) && !is_any(Answer::Undecided); }
+  /// Of what was asked, something is not decided, and nothing is denied.
+  bool is_undecided() const { return !is_yes() && !is_any(Answer::No); }
   bool is_any(Answer answer) const { return covers_triangles == answer || encloses_solid == answer; }
 };
 

@@ -50,8 +50,7 @@ struct Verification : Verdict {
   std::size_t splits = 0;  ///< vertex splits replayed
   std::size_t signs = 0;   ///< signs of orient3d that the replay decided exactly
 
-  /// The hull keeps VerificationOptions::gap; exact. If not, and faces_too_near is 0, it is undecided.
-  bool keeps_gap = true;
+  bool keeps_gap = true;           ///< the hull keeps VerificationOptions::gap; exact, unless is_gap_undecided()
   std::size_t faces_too_near = 0;  ///< faces of the hull that do not; exact
   std::vector<NearFace> nearest;   ///< the nearest of these, nearest first; max_offenders at most
   /// Of the hull, rounded; NaN without a gap, and where the search ended before.
@@ -78,6 +77,8 @@ struct Verification : Verdict {
   double void_ratio = std::numeric_limits<double>::quiet_NaN();  ///< hull_volume / original_volume - 1; NaN if unknown
   /// Sentences for the user: what was left out of the original, and units that seem to differ.
   std::vector<std::string> notes;
+
+  bool is_gap_undecided() const { return !keeps_gap && faces_too_near == 0; }
 };
 
 /// Decides whether `hull` encloses `original` (HullSide::Inner: whether `original` encloses `hull`). Guaranteed: a yes

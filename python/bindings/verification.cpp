@@ -34,8 +34,7 @@ py::dict facts_of(const Verification& found, double gap) {
   facts["original_volume"] = found.original_volume;
   facts["void_ratio"] = found.void_ratio;
   facts["notes"] = found.notes;
-  const bool is_known = gap > 0 && (found.keeps_gap || found.faces_too_near > 0);
-  facts["keeps_gap"] = is_known ? py::object(py::bool_(found.keeps_gap)) : py::none();
+  facts["keeps_gap"] = gap > 0 && !found.is_gap_undecided() ? py::object(py::bool_(found.keeps_gap)) : py::none();
   facts["faces_too_near"] = found.faces_too_near;
   facts["least_distance"] = found.least_distance;
   py::list nearest;

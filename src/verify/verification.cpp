@@ -189,8 +189,8 @@ class Judge {
     found.faces_too_near = report.faces_too_near;
     found.nearest = std::move(report.nearest);
     found.least_distance = report.least_distance;
-    const bool is_open = found.is_any(Answer::Undecided) && !found.is_any(Answer::No);
-    if (found.keeps_gap || !(found.encloses || (is_open && found.faces_too_near > 0))) return;
+    const bool decides = found.encloses || (found.is_undecided() && found.faces_too_near > 0);
+    if (found.keeps_gap || !decides) return;
     found.why_not = found.faces_too_near > 0
                         ? fmt::format("{} of it {} nearer to the original than that",
                                       counted(found.faces_too_near, "face"), found.faces_too_near == 1 ? "is" : "are")
