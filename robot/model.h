@@ -61,6 +61,14 @@ struct Link {
 
 enum class JointType { Fixed, Revolute, Continuous, Prismatic, Ball, Planar, Floating };
 
+inline Names<JointType> joint_type_names() {
+  static constexpr std::pair<std::string_view, JointType> kNames[] = {
+      {"fixed", JointType::Fixed},         {"revolute", JointType::Revolute}, {"continuous", JointType::Continuous},
+      {"prismatic", JointType::Prismatic}, {"ball", JointType::Ball},         {"planar", JointType::Planar},
+      {"floating", JointType::Floating}};
+  return kNames;
+}
+
 /// The joint follows another one: position = multiplier * position of the other + offset.
 struct Mimic {
   std::size_t joint = 0;  ///< in Robot::joints

@@ -19,12 +19,6 @@ using std::filesystem::path;
 
 constexpr const char* kReport = "report.json";
 
-std::string fingerprint_of(const path& file) {
-  robot::Fingerprint fingerprint;
-  fingerprint.add_file(file);
-  return fingerprint.text();
-}
-
 /// Whether a name is that of a file in the folder, whatever links there are on the way.
 bool stays_within(const path& folder, const path& name) {
   const path normal = name.lexically_normal();
@@ -80,13 +74,13 @@ RobotFolder::RobotFolder(const path& folder)
     require_free(folder_);
     return;
   }
-  for (const auto& [name, fingerprint] : earlier_["files"].items()) old_[name] = fingerprint;
+  for (const auto& [name, hash] : earlier_["files"].items()) old_[name] = hash;
 }
 
 std::optional<int> RobotFolder::earlier_run(const std::string& key) const {
   if (earlier_.is_null() || earlier_["made_from"] != key || has_changes_) return std::nullopt;
-  for (const auto& [name, fingerprint] : old_)
-    if (fingerprint_of(folder_ / name) != fingerprint) return std::nullopt;
+  for (const auto& [name, hash] : old_)
+    if (robot::hash_of_file(folder_ / name) != hash) return std::nullopt;
   return earlier_["exit_code"].get<int>();
 }
 
@@ -103,7 +97,7 @@ void RobotFolder::add(const path& name, const std::function<void(const path&)>& 
   outputs_.add_folder(target.parent_path());
   outputs_.add(target, name.extension().string(), [&](const path& file) {
     write(file);
-    new_[name.generic_string()] = fingerprint_of(file);
+    new_[name.generic_string()] = robot::hash_of_file(file);
     has_changes_ = has_changes_ || !have_same_bytes(file, target);
     return true;
   });
@@ -128,9 +122,9 @@ void RobotFolder::commit(nlohmann::json report, const std::string& key, int exit
 
 void RobotFolder::remove_old() const {
   std::error_code ignored;
-  for (const auto& [name, fingerprint] : old_) {
+  for (const auto& [name, hash] : old_) {
     const path file = folder_ / name;
-    if (new_.contains(name) || fingerprint_of(file) != fingerprint) continue;
+    if (new_.contains(name) || robot::hash_of_file(file) != hash) continue;
     std::filesystem::remove(file, ignored);
     std::filesystem::remove(file.parent_path(), ignored);  // if it is empty now
   }

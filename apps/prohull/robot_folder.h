@@ -30,18 +30,21 @@ class RobotFolder {
   void add(const std::filesystem::path& name, const std::function<void(const std::filesystem::path&)>& write);
   void add(const std::filesystem::path& name, const std::string& text);
 
+  /// The files that were added until now, by their names, with robot::hash_of_file.
+  const std::map<std::string, std::string>& added() const { return new_; }
+
   /// Writes report.json, lets all files appear, and removes those of the earlier run that are not written again, unless
   /// they have changed.
   void commit(nlohmann::json report, const std::string& key, int exit_code);
 
  private:
-  using Fingerprints = std::map<std::string, std::string>;  // of files by their names
+  using Hashes = std::map<std::string, std::string>;  // robot::hash_of_file by names
 
   void remove_old() const;
 
   std::filesystem::path folder_;
   nlohmann::json earlier_;  // "run" of the report that is there; null if there is none
-  Fingerprints old_, new_;
+  Hashes old_, new_;
   bool has_changes_ = false;  // a file that was added is not as it was
   Outputs outputs_;
 };

@@ -74,6 +74,7 @@ int run_check(const UrdfOptions& options, const RobotFile& file) {
     facts.disabled = check_disabled_pairs(file.robot, rows, proof);
   }
   facts.seconds = watch.seconds();
+  sign(facts, {options.srdf});
   Outputs outputs;
   outputs.add_report(options.report, report_json(facts));
   if (!options.junit.empty()) outputs.add(options.junit, report_junit(facts));
@@ -207,7 +208,7 @@ void write_pairs(const UrdfOptions& options, const ReportInput& facts, const Rob
   folder.add(stem + ".xrdf", xrdf_file(planned));
 }
 
-void write_report(const UrdfOptions& options, const ReportInput& facts, const RobotFiles& files, RobotFolder& folder) {
+void write_report(const UrdfOptions& options, ReportInput& facts, const RobotFiles& files, RobotFolder& folder) {
   if (facts.motion) write_pairs(options, facts, files, folder);
   ProgressLine line;
   PageOptions page{.pictures = !options.no_pictures,
@@ -218,6 +219,7 @@ void write_report(const UrdfOptions& options, const ReportInput& facts, const Ro
     folder.add("view.html", view_page(options, facts, page.progress));
     page.view = "view.html#x=2";  // what it ships with, the third thing on the page, is not drawn at first
   }
+  for (const auto& [name, hash] : folder.added()) facts.written.push_back({name, hash});
   folder.add("report.html", report_html(facts, page));
 }
 
@@ -297,6 +299,7 @@ int run_build(const UrdfOptions& options, const RobotFile& file) {
   look_at_the_rest(options, facts);
   if (options.certificate && facts.motion) write_motion_certificate(facts, files, folder);
   facts.seconds = watch.seconds();
+  sign(facts, {options.budgets});
   const bool is_done = is_covered && (!facts.motion || facts.motion->missed() == 0);
   write_report(options, facts, files, folder);
   folder.commit(report_json(facts), key, is_done ? kDone : kAnswerIsNo);

@@ -61,11 +61,6 @@ Geometry geometry_called(const std::string& name) {
   throw InputError(Defect::InvalidOption, "geometry '" + name + "': expected visual or collision");
 }
 
-const char* name_of_type(JointType type) {
-  constexpr std::array kNames{"fixed", "revolute", "continuous", "prismatic", "ball", "planar", "floating"};
-  return kNames[std::size_t(type)];
-}
-
 SharedFile read(const std::filesystem::path& path, std::vector<std::filesystem::path> package_paths) {
   return watched(py::none(), [&](Watch&) {
     return std::make_shared<RobotFile>(read_robot(path, {.package_paths = std::move(package_paths)}));
@@ -77,7 +72,7 @@ py::list joints_of(const RobotFile& file) {
   for (const Joint& joint : file.robot.joints) {
     py::dict facts;
     facts["name"] = joint.name;
-    facts["type"] = name_of_type(joint.type);
+    facts["type"] = prohull::name_of(joint_type_names(), joint.type);
     facts["parent"] = file.robot.links[joint.parent].name;
     facts["child"] = file.robot.links[joint.child].name;
     facts["origin"] = matrix(joint.origin);
@@ -292,6 +287,7 @@ std::string html_of(const RobotHulls& hulls, const RobotChecks* shipped, double 
                     .from = hulls.options.from};
   if (shipped) input.shipped = shipped->links;
   if (motion) input.motion = *motion;
+  sign(input);
   return watched(progress,
                  [&](Watch& watch) { return report_html(input, {.threads = threads, .progress = watch.progress()}); });
 }

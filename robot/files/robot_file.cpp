@@ -109,8 +109,14 @@ RobotFile read_document(const XmlDocument& document, const fs::path& path, const
     file.format = format->format, file.path = path, file.options = options, file.text = whole.text();
     return file;
   };
-  return format->merged && includes_files(document.root()) ? read(format->merged(document, packages, read_text))
-                                                           : read(document);
+  if (!format->merged || !includes_files(document.root())) return read(document);
+  std::vector<fs::path> included;
+  RobotFile file = read(format->merged(document, packages, [&](const fs::path& part) {
+    included.push_back(part);
+    return read_text(part);
+  }));
+  file.included = std::move(included);
+  return file;
 }
 
 }  // namespace

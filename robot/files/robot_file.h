@@ -38,8 +38,9 @@ struct RobotFile {
   RobotFormat format = RobotFormat::Urdf;
   std::filesystem::path path = {};
   std::string text = {};  ///< of the file, with those that MJCF includes; of xacro what the program xacro made of it
-  std::vector<std::string> notes = {};  ///< sentences for the user: what was not read
-  FileOptions options = {};             ///< with which it was read
+  std::vector<std::string> notes = {};               ///< sentences for the user: what was not read
+  FileOptions options = {};                          ///< with which it was read
+  std::vector<std::filesystem::path> included = {};  ///< whose text is here, too; those of xacro are not known
 };
 
 /// Reads URDF, SDF or MJCF; the content tells which. A .xacro file is expanded by the program xacro.

@@ -159,6 +159,11 @@ void remove_unused(const path& folder) {
   }
 }
 
+std::string text_of(const XXH3_state_t& state) {
+  const XXH128_hash_t hash = XXH3_128bits_digest(&state);
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
 }  // namespace
 
 Fingerprint::Fingerprint() : state_(XXH3_createState(), XXH3_freeState) { XXH3_128bits_reset(state_.get()); }
@@ -179,20 +184,16 @@ void Fingerprint::add(const TriangleMesh& mesh) {
   add_bytes(mesh.positions), add_bytes(mesh.triangles);
 }
 
-void Fingerprint::add_file(const path& file) {
+std::string Fingerprint::text() const { return text_of(*state_); }
+
+std::string hash_of_file(const path& file) {
+  const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(), XXH3_freeState);
+  XXH3_128bits_reset(state.get());
   std::ifstream in(file, std::ios::binary);
   std::array<char, 1 << 16> bytes;
-  std::size_t all = 0;
-  while (in.read(bytes.data(), bytes.size()), in.gcount() > 0) {
-    const auto count = static_cast<std::size_t>(in.gcount());
-    XXH3_128bits_update(state_.get(), bytes.data(), count), all += count;
-  }
-  add(all), add(std::size_t(in.eof()));
-}
-
-std::string Fingerprint::text() const {
-  const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  while (in.read(bytes.data(), bytes.size()), in.gcount() > 0)
+    XXH3_128bits_update(state.get(), bytes.data(), static_cast<std::size_t>(in.gcount()));
+  return in.eof() ? text_of(*state) : "";
 }
 
 const std::string& program_fingerprint() {
@@ -201,7 +202,7 @@ const std::string& program_fingerprint() {
     const bool known = dladdr(reinterpret_cast<const void*>(&program_fingerprint), &info) != 0 && info.dli_fname;
     const path object = known ? info.dli_fname : "";
     Fingerprint fingerprint;
-    fingerprint.add_file(is_shared_library(object) ? object : "/proc/self/exe");
+    fingerprint.add(hash_of_file(is_shared_library(object) ? object : "/proc/self/exe"));
     return fingerprint.text();
   }();
   return text;

@@ -23,13 +23,15 @@ class Fingerprint {
   void add(double number);
   void add(std::size_t number);
   void add(const TriangleMesh& mesh);
-  /// The content of a file. All files that cannot be read count as the same.
-  void add_file(const std::filesystem::path& path);
   std::string text() const;  ///< 32 hexadecimal digits
 
  private:
   std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state_;
 };
+
+/// XXH3 of the content of a file in 128 bits, as `xxhsum -H128` prints it; empty if the file cannot be read. It finds a
+/// file that has changed, but is not safe against those who look for two with the same.
+std::string hash_of_file(const std::filesystem::path& path);
 
 /// The fingerprint of the program, or of the Python module, that this code is a part of: another version may make other
 /// hulls.

@@ -60,7 +60,11 @@ figcaption { font-size: .9rem; margin-top: .45rem; }
 .chip { white-space: nowrap; }
 .chip::before { content: ""; display: inline-block; width: .8em; height: .8em; border-radius: 3px; margin-right: .4em;
   vertical-align: -.05em; background: var(--chip); border: 1px solid #0003; }
-.title { display: flex; flex-wrap: wrap; align-items: baseline; gap: .3rem .8rem; }
+.title { display: flex; flex-wrap: wrap; align-items: baseline; gap: .3rem .8rem; cursor: pointer; }
+.title::before { content: "▸"; color: var(--muted); }
+[open] > .title::before { content: "▾"; }
+[id^="link-"] { scroll-margin-top: 4rem; }
+code { font-size: .9em; }
 .badge { font-size: .9rem; font-weight: 600; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-size: .93rem; font-variant-numeric: tabular-nums; }
@@ -99,6 +103,8 @@ footer { margin-top: 2.2rem; color: var(--muted); font-size: .88rem; }
   main { max-width: none; padding: 0; }
   a { color: inherit; text-decoration: none; }
   h2, h3, .title { break-after: avoid; }
+  .title::before { content: none; }
+  details::details-content { content-visibility: visible; display: block; }
   .card, figure, tr, .findings li, .marks li, dl.words > * { break-inside: avoid; }
   .card { padding: .8rem .9rem; }
   .wide { overflow: visible; }

@@ -1,10 +1,21 @@
 #include "robot/report/report.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <set>
 
+#include "prohull/error.h"
+#include "robot/files/mesh_references.h"
+#include "robot/files/packages.h"
 #include "robot/files/xml.h"
+#include "robot/hulls/cache.h"
+#include "robot/motion/joint_limits.h"
 #include "robot/report/report_facts.h"
 #include "robot/report/verdict_facts.h"
 
@@ -94,6 +105,28 @@ Json facts_of(const LinkCheck& check, double allow) {
   facts["distance"] = distance(check.reach);
   facts["mean_distance"] = number(check.mean_distance);
   return facts;
+}
+
+Json facts_of(const std::vector<HashedFile>& files) {
+  Json list = Json::array();
+  for (const HashedFile& file : files)
+    list.push_back({{"file", clean_text(file.path.generic_string())}, {"xxh128", file.hash}});
+  return list;
+}
+
+Json joints_of(const Robot& robot) {
+  Json joints = Json::array();
+  const std::vector<JointRange> ranges = allowed_ranges(robot);
+  for (std::size_t j = 0; j < ranges.size(); ++j) {
+    const Joint& joint = robot.joints[j];
+    if (joint.type == JointType::Fixed) continue;
+    joints.push_back({{"name", clean_text(joint.name)},
+                      {"type", prohull::name_of(joint_type_names(), joint.type)},
+                      {"lower", number(ranges[j].lower)},
+                      {"upper", number(ranges[j].upper)},
+                      {"follows", joint.mimic ? Json(clean_text(robot.joints[joint.mimic->joint].name)) : Json()}});
+  }
+  return joints;
 }
 
 Json links_of(const ReportInput& input) {
@@ -287,7 +320,43 @@ std::vector<Suite> suites_of(const ReportInput& input) {
   return suites;
 }
 
+void add_mesh(const std::filesystem::path& mesh, const Packages& packages, std::set<std::filesystem::path>& files) {
+  if (!files.insert(mesh).second || lower_suffix(mesh) != ".gltf") return;
+  try {
+    for (const FileReference& reference : references_in(
+             mesh, [&](const std::string& name) { return packages.find_description(name, mesh.parent_path()).path; }))
+      files.insert(reference.file);
+  } catch (const InputError&) {
+    // What reads the mesh tells of it.
+  }
+}
+
+std::string date_text() {
+  const char* const epoch = std::getenv("SOURCE_DATE_EPOCH");
+  constexpr std::time_t kYear10000 = 253402300800;
+  std::time_t asked = -1;
+  if (epoch) std::from_chars(epoch, epoch + std::strlen(epoch), asked);
+  const bool is_asked = asked >= 0 && asked < kYear10000;
+  return fmt::format("{:%FT%TZ}", fmt::gmtime(is_asked ? asked : std::time(nullptr)));
+}
+
 }  // namespace
+
+void sign(ReportInput& input, std::initializer_list<std::filesystem::path> others) {
+  const RobotFile& robot = input.file;
+  const Packages packages(robot.path, robot.options);
+  std::set<std::filesystem::path> files(others);
+  files.insert(robot.included.begin(), robot.included.end());
+  for (const Link& link : robot.robot.links)
+    for (const Geometry which : {Geometry::Visual, Geometry::Collision})
+      for (const Shape& shape : shapes(link, which))
+        if (const MeshFile* const mesh = shape.mesh()) add_mesh(mesh->path, packages, files);
+  files.erase(std::filesystem::path());
+  files.erase(robot.path);
+  input.date = date_text();
+  input.sources = {{robot.path, hash_of_file(robot.path)}};
+  for (const std::filesystem::path& file : files) input.sources.push_back({file, hash_of_file(file)});
+}
 
 Json report_json(const ReportInput& input) {
   Json findings = Json::array();
@@ -299,6 +368,9 @@ Json report_json(const ReportInput& input) {
           {"from", input.from == Geometry::Visual ? "visual" : "collision"},
           {"allow", number(input.allow)},
           {"seconds", number(input.seconds)},
+          {"date", input.date},
+          {"sources", facts_of(input.sources)},
+          {"joints", joints_of(input.file.robot)},
           {"findings", findings},
           {"notes", texts(input.file.notes)},
           {"links", links_of(input)},

@@ -14,6 +14,11 @@
 
 namespace prohull::robot {
 
+struct HashedFile {
+  std::filesystem::path path;
+  std::string hash;  ///< hash_of_file
+};
+
 /// All that is known about a robot, as far as it was asked for. The vectors are empty, or have an entry for each link.
 struct ReportInput {
   const RobotFile& file;
@@ -30,7 +35,14 @@ struct ReportInput {
     std::size_t pairs = 0;            ///< that never meet
   } motion_certificate = {};
   std::vector<DisabledCheck> disabled = {};  ///< the rows of an SRDF file
+  std::string date = {};                     ///< UTC, as "2026-11-27T14:05:00Z"
+  std::vector<HashedFile> sources = {}, written = {};
 };
+
+/// Sets the date, that of the environment variable SOURCE_DATE_EPOCH if there is one, and the sources: the file of the
+/// robot and those that it includes, the mesh files of its links with the buffers of glTF, and the others that have a
+/// path.
+void sign(ReportInput& input, std::initializer_list<std::filesystem::path> others = {});
 
 /// Facts as numbers, texts and lists; docs/guides/robots.md lists the keys. Lengths are in metres. What is not known is
 /// null. Texts are UTF-8: bytes of the robot's file that are not become U+FFFD.

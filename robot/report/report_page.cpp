@@ -12,6 +12,7 @@
 #include "prohull/error.h"
 #include "robot/files/xml.h"
 #include "robot/motion/bodies.h"
+#include "robot/motion/joint_limits.h"
 #include "robot/report/pictures.h"
 #include "robot/report/report_facts.h"
 
@@ -183,10 +184,10 @@ std::string head(const ReportInput& input, const std::string& view) {
   std::ranges::transform(format, format.begin(), [](char c) { return 'a' <= c && c <= 'z' ? c - 'a' + 'A' : c; });
   return fmt::format(
       "<header>\n<p class=\"eyebrow\">Collision geometry report</p>\n<h1>{}</h1>\n"
-      "<p class=\"muted\">{} · {} · {} · prohull {} · {:.1f} s</p>\n{}{}</header>\n",
+      "<p class=\"muted\">{} · {} · {} · prohull {} · {} · {:.1f} s</p>\n{}{}</header>\n",
       html_escaped(input.file.robot.name), html_escaped(input.file.path.filename().string()), format,
-      counted(input.file.robot.links.size(), "link"), html_escaped(input.version), input.seconds, findings(input),
-      link_to_view(view));
+      counted(input.file.robot.links.size(), "link"), html_escaped(input.version), input.date, input.seconds,
+      findings(input), link_to_view(view));
 }
 
 std::string tile(const std::string& number, const std::string& words) {
@@ -361,6 +362,17 @@ std::string head_of(const LinkHull& hull, const LinkHulls& link) {
   return link.hulls.size() == 1 ? "Hull" : fmt::format("Hull of {}", grouped(hull.target_faces));
 }
 
+/// "all triangles and the solid that they bound", "12,000 triangles without 2 that are not finite"
+std::string proven_text(const Verdict& verdict) {
+  std::string text = verdict.covers_triangles == Answer::Yes ? "all triangles" : "";
+  if (verdict.encloses_solid == Answer::Yes) text += text.empty() ? "the solid" : " and the solid that they bound";
+  if (verdict.cap_faces > 0)
+    text += ", with " + counted(verdict.cap_faces, "face that closes its openings", "faces that close its openings");
+  if (verdict.non_finite_faces > 0)
+    text += fmt::format(", but {} not finite", counted(verdict.non_finite_faces, "that is", "that are"));
+  return text;
+}
+
 /// A fact about hulls, and about what was shipped.
 struct Fact {
   bool is_shown;
@@ -392,6 +404,8 @@ std::vector<Fact> facts(const LinkHulls* link, std::span<const LinkHull> hulls, 
           {has_check, "Mean distance from the geometry", unknown, [](Check c) { return length_text(c.mean_distance); }},
           {is_padded, "Padding, proven",
            [](Hull h) { return "at least " + length_text(h.verdict.gap.value_or(0), Rounded::Down); }, unknown},
+          {has_hulls, "Proven to lie inside", [](Hull h) { return h.certified() ? proven_text(h.verdict) : kDash; },
+           unknown},
           {has_hulls, "Proof", [](Hull h) { return h.certified() ? std::string(h.verdict.proof) : kDash; }, unknown},
           {has_hulls, "Built from", built_from, unknown}};
 }
@@ -482,12 +496,14 @@ std::string badge(const ReportInput& input, std::size_t link) {
   return fmt::format("<span class=\"badge {}\">{}</span>", cell.kind, cell.text);
 }
 
-std::string card(const ReportInput& input, std::size_t link, const std::vector<std::string>& drawn) {
+std::string card(const ReportInput& input, std::size_t link, const std::vector<std::string>& drawn, bool is_open) {
   const LinkHulls* const hulls = hulls_of(input, link);
   const LinkCheck* const check = check_of(input, link);
   if (!has_card(input, link)) return {};
-  std::string text = fmt::format("<article class=\"card\" id=\"link-{}\">\n<div class=\"title\"><h3>{}</h3>{}</div>\n",
-                                 link, name_of_link(input, link), badge(input, link));
+  // A link to what is inside of a folded card opens it.
+  std::string text = fmt::format(
+      "<details class=\"card\"{}>\n<summary class=\"title\"><h3>{}</h3>{}</summary>\n<div id=\"link-{}\">\n",
+      is_open ? " open" : "", name_of_link(input, link), badge(input, link), link);
   if (hulls) text += facts_line(*hulls);
   if (hulls && !hulls->why.empty()) text += fmt::format("<p>{}</p>\n", html_escaped(hulls->why));
   if (check && !was_measured(*check) && check->verdict != CheckVerdict::NoVisual)
@@ -498,12 +514,15 @@ std::string card(const ReportInput& input, std::size_t link, const std::vector<s
                   pictures(input, link, drawn), facts_table(hulls, check, input.allow));
   if (hulls) text += list("Repairs", hulls->repairs);
   text += list("Notes", notes_of(hulls, check));
-  return text + "</article>\n";
+  return text + "</div>\n</details>\n";
 }
 
 std::string cards(const ReportInput& input, const PagePictures& drawn) {
+  constexpr std::size_t kFew = 3;
+  std::vector<bool> is_open(drawn.cards.size(), drawn.cards.size() <= kFew);
+  for (const Mark& mark : marks_of(input)) is_open[mark.link] = true;
   std::string text;
-  for (std::size_t i = 0; i < drawn.cards.size(); ++i) text += card(input, i, drawn.cards[i]);
+  for (std::size_t i = 0; i < drawn.cards.size(); ++i) text += card(input, i, drawn.cards[i], is_open[i]);
   return fmt::format("<section>\n<h2>Each link</h2>\n{}</section>\n", text);
 }
 
@@ -604,6 +623,44 @@ std::string disabled_section(const ReportInput& input) {
 // ---------------------------------------------------------------------------------------------------------------------
 // The end of the page
 
+std::string folded(std::string_view title, const std::string& content) {
+  return fmt::format("<details class=\"card\">\n<summary class=\"title\"><h3>{}</h3></summary>\n{}</details>\n", title,
+                     content);
+}
+
+std::string joints(const Robot& robot) {
+  const std::vector<JointRange> ranges = allowed_ranges(robot);
+  std::string rows;
+  for (std::size_t j = 0; j < ranges.size(); ++j) {
+    const Joint& joint = robot.joints[j];
+    const auto limit = [&](double position) {
+      if (!moves(joint) || !std::isfinite(position)) return std::string(kDash);
+      return fmt::format("{:.6g} {}", position, turns(joint) ? "rad" : "m");
+    };
+    if (joint.type != JointType::Fixed)
+      rows += row(html_escaped(joint.name),
+                  {std::string(prohull::name_of(joint_type_names(), joint.type)), limit(ranges[j].lower),
+                   limit(ranges[j].upper), joint.mimic ? html_escaped(robot.joints[joint.mimic->joint].name) : kDash});
+  }
+  if (rows.empty()) return {};
+  return folded("Positions of the joints that count", table("", {"Joint", "Type", "From", "To", "Follows"}, rows));
+}
+
+std::string files(std::string_view title, const std::vector<HashedFile>& files) {
+  std::string rows;
+  for (const HashedFile& file : files)
+    rows += row(html_escaped(file.path.generic_string()),
+                {file.hash.empty() ? Cell("cannot be read", "bad") : Cell("<code>" + file.hash + "</code>")});
+  if (rows.empty()) return {};
+  return folded(title, table("As <code>xxhsum -H128</code> prints it: what has changed since is found, but no forgery",
+                             {"File", "XXH128"}, rows));
+}
+
+std::string record(const ReportInput& input) {
+  return fmt::format("<section>\n<h2>What this report is about</h2>\n{}{}{}</section>\n", joints(input.file.robot),
+                     files("Files of the robot", input.sources), files("Files that were written", input.written));
+}
+
 struct Word {
   bool is_shown;
   std::string_view word, meaning;
@@ -661,11 +718,11 @@ std::string report_html(const ReportInput& input, const PageOptions& options) {
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>{0}: collision geometry report</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n"
-      "{2}{3}{4}{5}{6}{7}{8}<footer>Made by prohull {9}. Lengths of bounds are rounded to the safe side.</footer>\n"
+      "{2}{3}{4}{5}{6}{7}{8}{9}<footer>Made by prohull {10}. Lengths of bounds are rounded to the safe side.</footer>\n"
       "</main>\n</body>\n</html>\n",
       html_escaped(input.file.robot.name), page_style(), head(input, options.view), overview(input, drawn.robot),
       marks(input), links_table(input), motion_section(input) + disabled_section(input), cards(input, drawn),
-      words(input), html_escaped(input.version));
+      record(input), words(input), html_escaped(input.version));
 }
 
 }  // namespace prohull::robot

@@ -264,6 +264,49 @@ TEST(ReportJson, HasAnEntryForEachLinkAndNoNumberThatIsNone) {
   EXPECT_NEAR(report["totals"]["median_convex_ratio"].get<double>(), 4.2 / 8, 1e-12);
 }
 
+TEST(ReportJson, TellsWhenItWasMadeAndFromWhatAndWhichPositionsCount) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "sign";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "part.gltf") << R"({"buffers": [{"uri": "part.bin"}]})";
+  for (const char* const name : {"arm.urdf", "part.bin", "common.urdf"}) std::ofstream(folder / name) << "";
+  RobotFile file = robot_of({"base", "hand", "finger"});
+  file.path = folder / "arm.urdf", file.included = {folder / "common.urdf"};
+  file.robot.links[0].visual.push_back({.form = MeshFile{.uri = "part.gltf", .path = folder / "part.gltf"}});
+  file.robot.links[1].collision.push_back({.form = MeshFile{.uri = "gone.stl", .path = folder / "gone.stl"}});
+  file.robot.joints = {{.name = "slide", .type = JointType::Prismatic, .child = 1, .lower = 0, .upper = 2},
+                       {.name = "same", .type = JointType::Prismatic, .parent = 1, .child = 2, .lower = 0, .upper = 1}};
+  file.robot.joints[1].mimic = Mimic{.joint = 0};
+  ReportInput input = input_of(file);
+  setenv("SOURCE_DATE_EPOCH", "86400", 1);
+  sign(input, {""});
+  unsetenv("SOURCE_DATE_EPOCH");
+  const nlohmann::json report = report_json(input);
+  EXPECT_EQ(report["date"], "1970-01-02T00:00:00Z");
+  std::vector<std::string> names;
+  for (const nlohmann::json& source : report["sources"])
+    names.push_back(std::filesystem::path(source["file"]).filename().string());
+  EXPECT_EQ(names, (std::vector<std::string>{"arm.urdf", "common.urdf", "gone.stl", "part.bin", "part.gltf"}));
+  EXPECT_EQ(report["sources"][0]["xxh128"], "99aa06d3014798d86001c324468d497f") << "of an empty file, by xxhsum -H128";
+  EXPECT_EQ(report["sources"][2]["xxh128"], "") << "it cannot be read";
+  EXPECT_NEAR(report["joints"][0]["upper"], 1, 1e-9) << "where the joint that follows is within its limits";
+  EXPECT_EQ(report["joints"][1]["follows"], "slide");
+  const std::string page = report_html(input, {.pictures = false});
+  EXPECT_TRUE(has(page, "1970-01-02T00:00:00Z"));
+  EXPECT_TRUE(has(page, "99aa06d3014798d86001c324468d497f"));
+  EXPECT_TRUE(has(page, "1 m"));
+}
+
+TEST(ReportPage, LinksThatNeedALookAreOpenAndTheOthersFolded) {
+  const RobotFile file = robot_of({"a", "b", "c", "d"});
+  ReportInput input = input_of(file);
+  for (std::size_t i = 0; i < 4; ++i) input.shipped.push_back(check_with(i, CheckVerdict::Covered));
+  EXPECT_EQ(count(report_html(input, {.pictures = false}), "<details class=\"card\" open>"), 0);
+  input.shipped[2] = check_with(2, CheckVerdict::Leaks);
+  const std::string page = report_html(input, {.pictures = false});
+  EXPECT_EQ(count(page, "<details class=\"card\" open>"), 1);
+  EXPECT_LT(page.find("<details class=\"card\" open>"), page.find("id=\"link-2\""));
+}
+
 TEST(ReportJson, CanBeWrittenWhateverBytesTheRobotHas) {
   RobotFile file = robot_of({"\xFF\xFE", "a\x01"});
   file.robot.name = "\xC3", file.notes = {"\x80"};
