@@ -212,32 +212,16 @@ BuildOptions for_mesh(BuildOptions options, const std::filesystem::path& in) {
   return options;
 }
 
-void require_names(const BuildOptions& options) {
-  const std::pair<const char*, std::filesystem::path> files[] = {{"-o", pattern_of(options.out, "")},
-                                                                 {"--hierarchy", options.hierarchy},
-                                                                 {"--certificate", options.certificate},
-                                                                 {"--report", options.report}};
-  for (const auto& [option, file] : files)
-    if (!file.empty() && named_after(file, "a.stl") == file)
-      refuse(
-          fmt::format("{}: several meshes need several names; put {{name}} where the name of the mesh goes, as in {} "
-                      "'{}'{}",
-                      file.string(), option, (file.parent_path() / ("{name}" + file.extension().string())).string(),
-                      file == options.out ? ", or end -o in / for a folder" : ""));
-}
-
 /// Before any work: refuses options as for one mesh, and files that would be written twice.
 void check_several(const BuildOptions& options, const std::vector<std::filesystem::path>& meshes) {
-  require_names(options);
+  check_outputs(meshes, [&](const std::filesystem::path& mesh) {
+    const BuildOptions one = for_mesh(options, mesh);
+    return NamedOutputs{
+        {"-o", one.out}, {"--hierarchy", one.hierarchy}, {"--certificate", one.certificate}, {"--report", one.report}};
+  });
   BuildOptions of_all = for_mesh(options, "{name}.stl");  // names stay patterns
   of_all.in = meshes.front();
   check_options(of_all);
-  std::vector<std::filesystem::path> outputs;
-  for (const auto& mesh : meshes) {
-    const BuildOptions one = for_mesh(options, mesh);
-    for (const auto& file : {one.out, one.hierarchy, one.certificate, one.report}) outputs.push_back(file);
-  }
-  check_files(meshes, outputs);
 }
 
 int run_build(const BuildOptions& options) {

@@ -26,7 +26,9 @@ namespace {
 using std::filesystem::path;
 
 struct ConvexOptions {
-  path in, out, certificate, report;
+  std::vector<path> meshes;
+  path in;  ///< one of them
+  path out, certificate, report;
   ConvexCoverOptions cover;
   InputOptions input;
   std::string out_format;
@@ -381,8 +383,7 @@ nlohmann::json report_of(const ConvexOptions& options, const PieceFiles& files, 
           {"options", options_report(options)}};
 }
 
-int run_convex(ConvexOptions options) {
-  const PieceFiles files(options);
+Outcome cover_and_write(ConvexOptions options, const PieceFiles& files) {
   options.cover.float32_coordinates = files.has_float32();
   options.cover.boxes_as_meshes = !files.is_robot();
   if (options.engine)
@@ -420,8 +421,50 @@ int run_convex(ConvexOptions options) {
   report.add_report(options.report, report_of(options, files, outcome));
   if (outcome.certified()) pieces.commit();
   report.commit();
-  print_summary(options, files, outcome);
-  return outcome.exit_code();
+  return outcome;
+}
+
+/// The options with the names of what is written for this mesh.
+ConvexOptions for_mesh(ConvexOptions options, const path& in) {
+  options.in = in;
+  const bool has_first = options.engine && !options.engine.value()->suffixes.empty();
+  const std::string usual = has_first ? options.engine.value()->suffixes.front() : ".obj";
+  options.out = pattern_of(options.out, options.out_format.empty() ? usual : "." + options.out_format);
+  for (auto* const file : {&options.out, &options.certificate, &options.report}) *file = named_after(*file, in);
+  return options;
+}
+
+std::string table_row(const Outcome& outcome) {
+  const ConvexCover& cover = outcome.cover;
+  const bool has_void = cover.verdict.encloses_solid == Answer::Yes && cover.original_volume > 0;
+  return fmt::format("{:>11}  {:>6}  {:>8}  {:>9.4g}  {}{}", grouped(outcome.input.faces), cover.pieces.size(),
+                     has_void ? (cover.is_estimated ? "~" : "") + percent_text(std::max(0.0, cover.void_ratio), 2) : "",
+                     rounded_up(cover.verdict.distance().upper, 4), outcome.certified() ? "yes" : "NO",
+                     !outcome.certified() || outcome.exit_code() == kDone ? "" : ", but not within what was asked");
+}
+
+int run_convex(const ConvexOptions& options) {
+  const std::vector<path> meshes = mesh_files(options.meshes);
+  Outputs folders;
+  if (!options.out.has_filename()) folders.add_folder(options.out);
+  if (meshes.size() == 1) {
+    const ConvexOptions one = for_mesh(options, meshes.front());
+    const PieceFiles files(one);
+    const Outcome outcome = cover_and_write(one, files);
+    print_summary(one, files, outcome);
+    return outcome.exit_code();
+  }
+  check_outputs(meshes, [&](const path& mesh) {
+    const ConvexOptions one = for_mesh(options, mesh);
+    return NamedOutputs{{"-o", one.out}, {"--certificate", one.certificate}, {"--report", one.report}};
+  });
+  return run_each(meshes,
+                  fmt::format("{:>11}  {:>6}  {:>8}  {:>9}  {}", "faces", "pieces", "void", "distance", "certified"),
+                  [&](const path& mesh) {
+                    const ConvexOptions one = for_mesh(options, mesh);
+                    const Outcome outcome = cover_and_write(one, PieceFiles(one));
+                    return MeshOutcome{outcome.exit_code(), {table_row(outcome)}, outcome.exit_code() == kDone};
+                  });
 }
 
 }  // namespace
@@ -434,11 +477,13 @@ void add_convex(CLI::App& app, Run& run) {
       "Covers a mesh by a few convex pieces, as physics engines take them. Together the pieces provably cover every "
       "triangle, and the inside too where the mesh is a solid. Any triangles will do. The files that were written are "
       "read again, and what they hold is certified by exact arithmetic.");
-  add_mesh_input(command, options->in, options->input, "Mesh to cover.");
+  add_mesh_inputs(command, options->meshes, options->input, "Mesh to cover.");
   add_value(command, "-o,--out", options->out, "PIECES",
             "File for the pieces. .obj and .glb hold all of them, each with a name. For .stl, .ply and .off each piece "
             "has a file: OUT_01.stl and so on. .urdf and .xml (MJCF) become a file of one link or body with all "
-            "pieces, to be copied into a robot, with STL files beside it. With - it goes to standard output.")
+            "pieces, to be copied into a robot, with STL files beside it. With - it goes to standard output. {name} "
+            "becomes the name of the mesh's file; a folder, whose name ends in /, gets an .obj file of each mesh, or "
+            "what --for takes.")
       ->required();
   add_out_format_option(command, options->out_format, piece_outputs());
   add_choice(command, "--for", options->engine, engine_names(),
@@ -467,6 +512,7 @@ void add_convex(CLI::App& app, Run& run) {
                          "prohull convex arm.stl --max-distance 2 --pieces 64 -o arm_piece.stl --report arm.json",
                          "prohull convex arm.stl --unit mm --pieces 8 -o arm_pieces.urdf",
                          "prohull convex arm.stl --unit mm --shape capsule --max-void 60 -o arm_pieces.xml",
+                         "prohull convex parts/ --pieces 8 -o pieces/",
                          "prohull convex pump.stl --pieces 1 --vertices 16 -o pump_polytope.stl"});
   command.callback([options, &run] { run = [options] { return run_convex(*options); }; });
 }

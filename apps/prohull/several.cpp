@@ -55,6 +55,21 @@ fs::path pattern_of(const fs::path& out, const std::string& tail) {
   return is_folder ? out / (std::string(kNameInName) + tail) : out;
 }
 
+void check_outputs(const std::vector<fs::path>& meshes,
+                   const std::function<NamedOutputs(const fs::path&)>& outputs_of) {
+  for (const auto& [option, file] : outputs_of(std::string(kNameInName) + ".stl"))
+    if (!file.empty() && named_after(file, "a.stl") == file)
+      refuse(
+          fmt::format("{}: several meshes need several names; put {{name}} where the name of the mesh goes, as in {} "
+                      "'{}'{}",
+                      file.string(), option, (file.parent_path() / ("{name}" + file.extension().string())).string(),
+                      option == std::string_view("-o") ? ", or end -o in / for a folder" : ""));
+  std::vector<fs::path> outputs;
+  for (const fs::path& mesh : meshes)
+    for (const auto& [option, file] : outputs_of(mesh)) outputs.push_back(file);
+  check_files(meshes, outputs);
+}
+
 int run_each(const std::vector<fs::path>& meshes, const std::string& head,
              const std::function<MeshOutcome(const fs::path&)>& one) {
   std::size_t width = 4, done = 0;

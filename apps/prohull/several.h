@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace prohull::cli {
@@ -17,6 +18,14 @@ std::filesystem::path named_after(const std::filesystem::path& pattern, const st
 
 /// DIR/ and folders that exist stand for DIR/{name}`tail`.
 std::filesystem::path pattern_of(const std::filesystem::path& out, const std::string& tail);
+
+/// Options and the names that they have.
+using NamedOutputs = std::vector<std::pair<const char*, std::filesystem::path>>;
+
+/// Refuses, before any work, what would be the same file for several of the meshes, and files that are written over.
+/// `outputs_of` has what is written for a mesh; of "{name}.stl", the patterns.
+void check_outputs(const std::vector<std::filesystem::path>& meshes,
+                   const std::function<NamedOutputs(const std::filesystem::path&)>& outputs_of);
 
 /// What became of one of several meshes.
 struct MeshOutcome {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "command.h"
@@ -10,6 +11,7 @@
 #include "prohull/mesh_io.h"
 #include "prohull/verification.h"
 #include "recenter.h"
+#include "several.h"
 #include "verdict.h"
 #include "verify_union.h"
 
@@ -159,13 +161,21 @@ Box box_of(const MeshOrHull& hull) {
   return levels ? finite_bounding_box(levels->base()) : finite_bounding_box(std::get<TriangleMesh>(hull));
 }
 
-int run_verify(const VerifyOptions& options) {
-  if (!options.more.empty())
-    throw InputError(Defect::InvalidOption,
-                     "these are more than two files: with --union the last one is ORIGINAL, and all others are pieces");
-  if (!options.link.empty())
-    throw InputError(Defect::InvalidOption, "--link picks a link of files of pieces: use it with --union");
-  if (options.inside) throw InputError(Defect::InvalidOption, "--inside is for spheres: use it with --union");
+struct Judged {
+  Verification found;
+  SizeComparison sizes;
+  std::size_t hull_faces = 0, original_faces = 0;
+  double gap = 0, read_seconds = 0, seconds = 0;
+
+  int exit_code(const VerifyOptions& options) const {
+    if (has_failed_replay(found) || found.faces_too_near > 0) return kAnswerIsNo;
+    if (found.encloses && found.is_gap_undecided()) return kUndecided;
+    return exit_code_of(found, options.any_scale || !sizes.is_doubtful());
+  }
+};
+
+/// Also writes the report.
+Judged judge(const VerifyOptions& options) {
   check_files({options.hull, options.original}, {options.report});
   const std::vector<double> numbers = numbers_of(options.offset, 3, "offset");
   const Vec3 offset{numbers[0], numbers[1], numbers[2]};
@@ -176,24 +186,78 @@ int run_verify(const VerifyOptions& options) {
       minus(read_input(options.original, options.original_input, NonFinite::Keep, nullptr, &unit), offset);
   const double read_seconds = reading.seconds();
   const double gap = MeshUnit(original, options.original, options.original_input, unit).number_of(options.gap, "--gap");
-  const Box original_box = finite_bounding_box(original);
   stop_if_interrupted();
   const Stopwatch verifying;
-  const Verification found = verify(options, hull, original, gap);
+  Verification found = verify(options, hull, original, gap);
   const double seconds = verifying.seconds();
-  const SizeComparison sizes(box_of(hull), face_count(hull), original_box, found.side);
+  const SizeComparison sizes(box_of(hull), face_count(hull), finite_bounding_box(original), found.side);
   Outputs outputs;
   nlohmann::json report = report_of(options, found, gap, seconds);
   report["offset"] = numbers;
   report.update(sizes.facts());
   outputs.add_report(options.report, report);
   outputs.commit();
-  print_summary(options, found, sizes, gap, seconds);
-  say_more("  hull of {}, original of {}; proof by {}; read {:.2f} s\n", counted(face_count(hull), "face"),
-           counted(original.face_count(), "face"), found.proof, read_seconds);
-  if (has_failed_replay(found) || found.faces_too_near > 0) return kAnswerIsNo;
-  if (found.encloses && found.is_gap_undecided()) return kUndecided;
-  return exit_code_of(found, options.any_scale || !sizes.is_doubtful());
+  return {std::move(found), sizes, face_count(hull), original.face_count(), gap, read_seconds, seconds};
+}
+
+std::string table_row(const Judged& judged, int exit_code) {
+  const Verification& found = judged.found;
+  const bool has_void = found.is_yes() && !std::isnan(found.void_ratio);
+  const char* const answer = exit_code == kDone        ? "yes"
+                             : exit_code == kUndecided ? "UNDECIDED"
+                             : found.certified         ? "UNITS: "
+                                                       : "NO: ";
+  return fmt::format("{:>11}  {:>9}  {:>8}  {}{}", grouped(judged.original_faces), grouped(judged.hull_faces),
+                     has_void ? percent_text(found.void_ratio, 2) : "", answer,
+                     exit_code != kAnswerIsNo ? ""
+                     : found.certified        ? judged.sizes.doubt()
+                                              : found.why_not);
+}
+
+/// Each mesh of one folder by the hull of the same name in the other. A hull without a mesh is an error, too.
+int run_verify_folders(const VerifyOptions& options) {
+  std::map<std::string, std::filesystem::path> hulls;
+  const std::vector<std::filesystem::path> meshes = mesh_files({options.original});
+  for (const auto& hull : mesh_files({options.hull})) hulls[named_after("{name}", hull).string()] = hull;
+  const auto one = [&](const std::filesystem::path& mesh) {
+    VerifyOptions of_mesh = options;
+    of_mesh.original = mesh, of_mesh.report = named_after(options.report, mesh);
+    if (const auto hull = hulls.extract(named_after("{name}", mesh).string())) of_mesh.hull = hull.mapped();
+    return of_mesh;
+  };
+  check_outputs(meshes, [&](const auto& mesh) {
+    return NamedOutputs{{"--report", named_after(options.report, mesh)}};
+  });
+  const int exit_code = run_each(
+      meshes, fmt::format("{:>11}  {:>9}  {:>8}  {}", "faces", "hull", "void", "enclosed"),
+      [&](const std::filesystem::path& mesh) {
+        const VerifyOptions of_mesh = one(mesh);
+        if (of_mesh.hull == options.hull)
+          throw InputError(Defect::CannotRead,
+                           fmt::format("{}: {} has no hull of this name", mesh.string(), options.hull.string()));
+        const Judged judged = judge(of_mesh);
+        const int code = judged.exit_code(of_mesh);
+        return MeshOutcome{code, {table_row(judged, code)}, code == kDone};
+      });
+  for (const auto& [name, hull] : hulls)
+    tell_error(fmt::format("{}: {} has no mesh of this name", hull.string(), options.original.string()));
+  return hulls.empty() ? exit_code : kBadInput;
+}
+
+int run_verify(const VerifyOptions& options) {
+  if (!options.more.empty())
+    throw InputError(Defect::InvalidOption,
+                     "these are more than two files: with --union the last one is ORIGINAL, and all others are pieces");
+  if (!options.link.empty())
+    throw InputError(Defect::InvalidOption, "--link picks a link of files of pieces: use it with --union");
+  if (options.inside) throw InputError(Defect::InvalidOption, "--inside is for spheres: use it with --union");
+  if (std::filesystem::is_directory(options.hull) && std::filesystem::is_directory(options.original))
+    return run_verify_folders(options);
+  const Judged judged = judge(options);
+  print_summary(options, judged.found, judged.sizes, judged.gap, judged.seconds);
+  say_more("  hull of {}, original of {}; proof by {}; read {:.2f} s\n", counted(judged.hull_faces, "face"),
+           counted(judged.original_faces, "face"), judged.found.proof, judged.read_seconds);
+  return judged.exit_code(options);
 }
 
 }  // namespace
@@ -226,7 +290,8 @@ void add_verify(CLI::App& app, Run& run) {
             std::string("Mesh or .phull file; with --union a file of pieces. ") + kMeshFiles)
       ->required();
   add_value(command, "original", options->original, "ORIGINAL",
-            "Mesh that the hull should enclose, in any of these formats.")
+            "Mesh that the hull should enclose, in any of these formats. Of two folders, each mesh of ORIGINAL is "
+            "compared with the mesh of the same name in HULL.")
       ->required();
   add_value(command, "more", options->more, "MORE", "With --union: more files of pieces. The last file is ORIGINAL.");
   CLI::Option* const is_union = command.add_flag(
@@ -279,7 +344,7 @@ void add_verify(CLI::App& app, Run& run) {
       {"prohull verify hull.stl horse.ply", "prohull verify horse.phull horse.ply",
        "prohull verify occluder.obj rock.obj --side inner", "prohull verify hull.stl bucket.stl --open-shells close",
        "prohull verify hull.stl soup.stl", "prohull verify cage.obj horse.ply --gap 0.5%",
-       "prohull verify arm_collision.stl arm.stl --unit mm",
+       "prohull verify arm_collision.stl arm.stl --unit mm", "prohull verify hulls/ parts/",
        "prohull verify house.glb house_utm.ply --offset 500010,5400000,0", "prohull verify --union pieces.obj part.stl",
        "prohull verify --union a.stl b.stl c.stl part.stl", "prohull verify --union spheres.yaml part.stl --inside",
        "prohull verify --union arm_pieces.urdf arm.stl",

@@ -217,6 +217,7 @@ says err "two lines in the name of a robot" "control characters"
 mkdir examples && cd examples || exit 1
 $prohull sample bracket --faces 300 -o arm.stl >/dev/null
 cp arm.stl pump.stl
+mkdir parts && cp arm.stl parts/
 $prohull sample bracket --faces 300 -o horse.ply >/dev/null
 $prohull help convex | sed -n '/^Examples:/,$p' | grep '^  prohull convex' >lines
 is "there are examples" test "$(wc -l <lines)" -ge 5

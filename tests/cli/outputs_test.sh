@@ -178,6 +178,32 @@ is "a hierarchy of two hulls: said once" test "$(wc -l <err)" = 1
 printf 'OFF\n5 5 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nnan 0 0\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 4\n3 2 3 4\n' >holed.off
 expect 0 "caveats in a table" $prohull build holed.off three.ply -o 'hulls/{name}.stl' --faces 30
 says out "caveats in a table" "yes, of finite triangles (2 are not), with openings closed ("
+$prohull build parts -o pairs/ --faces 60 >/dev/null
+expect 0 "two folders" $prohull verify pairs parts --finite-only
+says out "two folders" "2 of 2 meshes: as asked"
+cp three.ply pairs/other.ply
+expect 3 "a hull without a mesh" $prohull verify pairs parts --report 'pairs/{name}_report.json'
+says err "a hull without a mesh" "pairs/other.ply: parts has no mesh of this name"
+is "two folders: reports" test -s pairs/one_report.json -a -s pairs/two_report.json
+mv pairs/other.ply pairs/three.ply
+rm pairs/two.ply
+cp parts/one.ply parts/three.ply
+expect 3 "a mesh without a hull" $prohull verify pairs parts
+says err "a mesh without a hull" "parts/two.ply.gz: pairs has no hull of this name"
+says out "a hull that is the mesh" "2 of 3 meshes: as asked"
+rm parts/three.ply
+expect 2 "one report for two" $prohull verify pairs parts --report r.json
+says err "one report for two" "as in --report '{name}.json'"
+expect 0 "pieces of a folder" $prohull convex parts -o pieces/ --pieces 2
+says out "pieces of a folder" "2 of 2 meshes: as asked"
+is "pieces of a folder" test "$(ls pieces | tr '\n' ' ')" = "one.obj two.obj "
+expect 0 "pieces of a folder cover it" $prohull verify --union pieces/two.obj parts/two.ply.gz
+expect 0 "pieces of a folder, for an engine" $prohull convex parts -o pieces/ --pieces 2 --for godot
+is "pieces of a folder, for an engine" test -s pieces/one.glb -a -s pieces/two.glb
+expect 1 "pieces that keep no bound" $prohull convex parts -o pieces/ --pieces 1 --vertices 4 --max-void 0.01
+says out "pieces that keep no bound" "0 of 2 meshes: as asked"
+expect 2 "pieces of one name" $prohull convex parts -o pieces.obj
+says err "pieces of one name" "or end -o in / for a folder"
 expect 3 "a folder that is a file" $prohull build three.ply -o three.ply/hull.stl
 says err "a folder that is a file" "three.ply is a file and no folder"
 expect 2 "two meshes of one name" $prohull build parts/one.ply "$PWD/parts/../parts/one.ply" -o new/
