@@ -40,7 +40,10 @@ void take_best_of_seed(Ranking& ranking, const Request& request, std::size_t tar
   const HullBounds& bounds = request.options.bounds;
   Notes without_bounds;
   std::optional<Attempt> plain = best_of_seed(request, target_faces, {}, seed, solids, without_bounds);
-  if (plain && bounds.any()) measure(*plain, bounds, request, solids);
+  if (plain && bounds.any()) {
+    require_volume(solids.verified_volume(target_faces), bounds);
+    measure(*plain, bounds, request, solids);
+  }
   const bool is_enough =
       !bounds.any() || (plain && plain->hull.certified && plain->hull.target_reached && plain->hull.within_bounds);
   if (is_enough)
