@@ -25,13 +25,19 @@ void print_offenders(const Verification& found, const std::string& mesh) {
   print_worst(found.worst);
 }
 
+/// Of faces nearer than the gap; where rounding hides by how much, that they are.
+std::string distance_text(double distance, double gap, int digits) {
+  if (distance == gap) return fmt::format("less than {:.17g}", gap);
+  return fmt::format("{:.{}g}", distance, digits_apart(distance, gap, digits));
+}
+
 void print_near_faces(const Verification& found, const std::string& hull, double gap) {
   if (found.faces_too_near > 0)
     say("  {} of {} {} too near; the nearest:\n", counted(found.faces_too_near, "face"), hull,
         found.faces_too_near == 1 ? "is" : "are");
   for (const NearFace& near : found.nearest)
-    say("    face {} at {}, {:.{}g} from face {} of the mesh\n", index(near.face), text_of_point(near.point),
-        near.distance, digits_apart(near.distance, gap, 6), index(near.original_face));
+    say("    face {} at {}, {} from face {} of the mesh\n", index(near.face), text_of_point(near.point),
+        distance_text(near.distance, gap, 6), index(near.original_face));
 }
 
 HullSide side_of(const MeshOrHull& hull, const VerifyOptions& options) {
@@ -106,8 +112,8 @@ void print_summary(const VerifyOptions& options, const Verification& found, cons
   if (!std::isnan(found.hull_volume))
     say("  hull: volume {:.9g}{}\n", found.hull_volume, text_of_void(found.void_ratio));
   if (gap > 0 && !std::isnan(found.least_distance))
-    say("  least distance: {:.{}g}\n", found.least_distance,
-        found.keeps_gap ? 9 : digits_apart(gap, found.least_distance, 9));
+    say("  least distance: {}\n",
+        found.keeps_gap ? fmt::format("{:.9g}", found.least_distance) : distance_text(found.least_distance, gap, 9));
   say("  {} intersects itself in {}\n", hull, counted(found.self_intersections, "pair of faces", "pairs of faces"));
 }
 

@@ -84,7 +84,7 @@ void print_summary(const Union& all, const UnionVerification& found) {
   if (!std::isnan(found.union_volume))
     say("  union: volume {:.6g}{}\n", found.union_volume, text_of_void(found.void_ratio));
   if (reach.lower > 0)
-    say("  it reaches out by {:.6g} to {:.6g}, at {}\n", reach.lower, rounded_up(reach.upper, 6),
+    say("  it reaches out by {:.6g} to {:.6g}, at {}\n", rounded_down(reach.lower, 6), rounded_up(reach.upper, 6),
         text_of_point(reach.farthest));
   else
     say("  it reaches out by at most {:.6g}\n", rounded_up(reach.upper, 6));

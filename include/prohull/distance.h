@@ -8,12 +8,12 @@
 
 namespace prohull {
 
-/// Two bounds of the one-sided Hausdorff distance: of the distance from the point of one mesh that is farthest from the
-/// other mesh. In the input's unit.
+/// Two proven bounds of the one-sided Hausdorff distance: of the distance from the point of one mesh that is farthest
+/// from the other mesh. In the input's unit.
 struct DistanceBounds {
-  double lower = 0;    ///< the distance of the point `farthest`, rounded
-  double upper = 0;    ///< proven: no point is farther away than this
-  Vec3 farthest = {};  ///< the farthest point that was found
+  double lower = 0;    ///< some point is at least so far away
+  double upper = 0;    ///< no point is farther away than this
+  Vec3 farthest = {};  ///< the farthest point that was found, rounded; the origin if `lower` is 0
 };
 
 struct DistanceOptions {

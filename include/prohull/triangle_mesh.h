@@ -41,4 +41,8 @@ bool is_closed(const TriangleMesh& mesh);
 /// bounding box. For huge coordinates it may overflow to infinity, but never to NaN.
 double signed_volume(const TriangleMesh& mesh);
 
+/// Whether both have the very same triangles in the same order: a file that was read again, or a repaired mesh, may
+/// have its vertices numbered anew.
+bool has_triangles_of(const TriangleMesh& a, const TriangleMesh& b);
+
 }  // namespace prohull

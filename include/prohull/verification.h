@@ -53,7 +53,8 @@ struct Verification : Verdict {
   bool keeps_gap = true;           ///< the hull keeps VerificationOptions::gap; exact, unless is_gap_undecided()
   std::size_t faces_too_near = 0;  ///< faces of the hull that do not; exact
   std::vector<NearFace> nearest;   ///< the nearest of these, nearest first; max_offenders at most
-  /// Of the hull, rounded; NaN without a gap, and where the search ended before.
+  /// No more than this lies between hull and original; rounded up, but to the gap if it is not kept. NaN without a gap,
+  /// and where the search ended before.
   double least_distance = std::numeric_limits<double>::quiet_NaN();
 
   std::size_t faces_outside = 0;  ///< faces of the inner mesh of which a part lies outside of the outer one; exact

@@ -97,7 +97,7 @@ class Verification(Verdict):
     keeps_gap: Optional[bool]  #: whether the hull keeps the gap; exact; None if none was asked for, or it was not decided
     faces_too_near: int  #: number of faces of the hull that do not; exact
     nearest: list[NearFace]  #: the nearest of these, nearest first
-    least_distance: float  #: between hull and original, rounded; nan without a gap, and where the search ended before
+    least_distance: float  #: no more lies between hull and original; rounded up; nan without a gap, or if the search ended
 
 
 def verify(hull: MeshLike, original: MeshLike, *, side: Optional[Side] = None, solid_only: bool = False,

@@ -175,9 +175,7 @@ EnclosingHull Ranking::winner() {
   if (solid.folds.faces > 0)
     notes_.add(describe(solid.folds) +
                ": the hull is built from the mesh with other faces around them, which cover them");
-  if (solid.slab_width > 0)
-    notes_.add(
-        fmt::format("the triangles are flat: the hull is one of a slab around them, {:.4g} wide", solid.slab_width));
+  if (solid.slab_width > 0) notes_.add("the triangles are flat: the hull is one of a thin solid around them");
   if (solid.largest_door > 0)
     notes_.add(fmt::format("{}openings up to about {:.4g} across count as closed",
                            is_closed(request_.input.original) ? "" : "the mesh is not closed: ", solid.largest_door));

@@ -136,15 +136,6 @@ std::string text_of_openings(bool has_openings, const DistanceBounds& from_trian
                      rounded_up(from_triangles.upper, 4));
 }
 
-bool has_triangles_of(const TriangleMesh& a, const TriangleMesh& b) {
-  if (a.face_count() != b.face_count()) return false;
-  for (const FaceId f : a.triangles.ids()) {
-    const Triangle s = a.triangle(f), t = b.triangle(f);
-    if (s.a != t.a || s.b != t.b || s.c != t.c) return false;
-  }
-  return true;
-}
-
 Verification of_file(Verification found, const RepairedMesh& input) {
   found.non_finite_faces = input.repairs.dropped_non_finite_faces;
   return found;

@@ -87,4 +87,13 @@ double signed_volume(const TriangleMesh& mesh) {
   return volume == 0 ? 0 : volume * unit * unit * unit;
 }
 
+bool has_triangles_of(const TriangleMesh& a, const TriangleMesh& b) {
+  if (a.face_count() != b.face_count()) return false;
+  for (const FaceId f : a.triangles.ids()) {
+    const Triangle s = a.triangle(f), t = b.triangle(f);
+    if (s.a != t.a || s.b != t.b || s.c != t.c) return false;
+  }
+  return true;
+}
+
 }  // namespace prohull

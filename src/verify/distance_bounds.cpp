@@ -13,6 +13,7 @@ namespace prohull {
 DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to, const DistanceOptions& options) {
   verify::require_distances(from);
   verify::require_distances(to);
+  if (has_triangles_of(from, to)) return {};
   const double largest = std::max(verify::largest_coordinate(from), verify::largest_coordinate(to));
   if (const double unit = verify::usable_unit(largest); unit != 1)
     return verify::unscaled(distance_bounds(verify::scaled(from, unit), verify::scaled(to, unit), options), unit);
@@ -32,9 +33,7 @@ DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to,
     const Triangle t = from.triangle(f);
     search.add({{t.a, t.b, t.c}, {nearest[a], nearest[b], nearest[c]}});
   }
-  DistanceBounds bounds = search.run([&] { counter.next(); });
-  bounds.upper += verify::rounding_of_distances(largest);
-  return bounds;
+  return verify::proven(search.run([&] { counter.next(); }), faces, verify::rounding_of_distances(largest));
 }
 
 double HullBounds::excess(const TriangleMesh& hull, double hull_volume, const TriangleMesh& original, double volume,

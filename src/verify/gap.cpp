@@ -146,7 +146,8 @@ GapReport verify_gap(const TriangleMesh& hull, const TriangleMesh& original, dou
     std::optional<bool> keeps;
     try {
       keeps = search.keeps_gap(face);
-      const auto [nearest, proven_distance] = search.nearest(f, face, *keeps ? report.least_distance : kAny);
+      auto [nearest, proven_distance] = search.nearest(f, face, *keeps ? report.least_distance : kAny);
+      if (!*keeps) nearest.distance = std::min(nearest.distance, gap);
       report.least_distance = std::min(report.least_distance, nearest.distance);
       report.proven_distance = std::min(report.proven_distance, proven_distance);
       if (!*keeps) report.nearest.push_back(nearest);

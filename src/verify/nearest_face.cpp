@@ -7,6 +7,7 @@
 
 #include "geometry/closest_point.h"
 #include "geometry/largest_coordinate.h"
+#include "geometry/triangle_distance.h"
 #include "prohull/error.h"
 #include "verify/distance.h"
 
@@ -39,12 +40,34 @@ TriangleMesh scaled(TriangleMesh mesh, double unit) {
 
 DistanceBounds unscaled(const DistanceBounds& bounds, double unit) {
   if (unit == 1) return bounds;
-  const double upper = std::nextafter(bounds.upper / unit, std::numeric_limits<double>::infinity());
-  return {bounds.lower / unit, upper, bounds.farthest / unit};
+  const double lower = bounds.lower / unit;  // exact but for those that underflow
+  return {lower * unit > bounds.lower ? std::nextafter(lower, 0) : lower,
+          std::nextafter(bounds.upper / unit, std::numeric_limits<double>::infinity()), bounds.farthest / unit};
 }
 
 double NearestFace::distance(const Vec3& p, std::uint32_t face) const {
   return norm(p - closest_point(p, mesh_.triangle(FaceId(face))));
+}
+
+double NearestFace::at_least(const Vec3& p) const {
+  constexpr double kBelow = 1 - 0x1p-50;  // of three rounded differences, their squares, sum and root
+  double least = std::numeric_limits<double>::infinity();
+  tree_.least([&](const Box& box) { return kBelow * verify::distance(p, box); },
+              [&](std::uint32_t f) {
+                const TriangleDistance d = triangle_distance({p, p, p}, mesh_.triangle(FaceId(f)));
+                least = std::min(least, d.lower);
+                return d.upper;
+              },
+              std::numeric_limits<double>::infinity());
+  return least;
+}
+
+// Of a needle, the closest point that is found may be far from the closest one.
+DistanceBounds proven(const DistanceBounds& found, const NearestFace& faces, double rounding) {
+  DistanceBounds bounds{.upper = found.upper + rounding};
+  if (found.lower > 0) bounds.lower = std::max(0.0, faces.at_least(found.farthest) - rounding);
+  if (bounds.lower > 0) bounds.farthest = found.farthest;
+  return bounds;
 }
 
 NearestFace::Found NearestFace::nearest(const Vec3& p, Found known, std::size_t& looked_at) const {

@@ -41,6 +41,8 @@ class NearestFace {
   explicit NearestFace(const TriangleMesh& mesh) : mesh_(mesh), tree_(mesh) {}
 
   double distance(const Vec3& p, std::uint32_t face) const;
+  /// Proven: no face is nearer to p. Coordinates are within 1e100.
+  double at_least(const Vec3& p) const;
   static constexpr Found kNone{0, std::numeric_limits<double>::infinity()};
   /// `known`, or one that is nearer. Adds how many faces it looked at.
   Found nearest(const Vec3& p, Found known, std::size_t& looked_at) const;
@@ -53,6 +55,9 @@ class NearestFace {
   const TriangleMesh& mesh_;
   Bvh tree_;
 };
+
+/// The bounds as they hold where distances, and the points of parts, are off by `rounding`.
+DistanceBounds proven(const DistanceBounds& found, const NearestFace& faces, double rounding);
 
 /// Parts of faces, and how far all of their points are from a mesh. The distance to a triangle is a convex function: no
 /// point of a part is farther from it than the farthest corner.

@@ -172,11 +172,10 @@ double rounding_of(double largest) { return 2 * verify::rounding_of_distances(la
 
 /// Ends the search.
 template <class Search>
-DistanceBounds reach_of(Search& search, ProgressCounter& counter, double largest) {
-  DistanceBounds bounds = search.run([&] { counter.next(); });
+DistanceBounds reach_of(Search& search, const Target& target, ProgressCounter& counter, double largest) {
+  const DistanceBounds found = search.run([&] { counter.next(); });
   counter.finish();
-  bounds.upper += rounding_of(largest);
-  return bounds;
+  return verify::proven(found, target.faces(), rounding_of(largest));
 }
 
 /// The eighths of a sphere.
@@ -222,7 +221,7 @@ DistanceBounds reach_from_solid(std::span<const TriangleMesh> pieces, const Targ
       const Triangle t = piece.triangle(f);
       search.add({{{t.a, t.b, t.c}}, last});
     }
-  return reach_of(search, counter, largest);
+  return reach_of(search, target, counter, largest);
 }
 
 }  // namespace
@@ -267,7 +266,7 @@ DistanceBounds union_reach(std::span<const Ball> balls, const TriangleMesh& orig
   ProgressCounter counter(options.progress, "measure", options.max_cells);
   for (const Ball& ball : balls)
     for (const SpherePart& part : parts_of(ball)) counter.next(), search.add({part});
-  return reach_of(search, counter, largest);
+  return reach_of(search, target, counter, largest);
 }
 
 }  // namespace prohull

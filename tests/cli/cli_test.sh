@@ -685,7 +685,7 @@ says shell.json "report: its openings" '"open_shells": "keep"'
 expect 0 "an open shell, verified" $prohull verify shell.stl open.off
 expect 0 "NaN" $prohull build nan.off --faces 100 -o wrapped.off --report wrapped.json
 says out "NaN" "dropped 3 faces with a corner that is not finite"
-says out "NaN" "the triangles are flat: the hull is one of a slab around them"
+says out "NaN" "the triangles are flat: the hull is one of a thin solid around them"
 says wrapped.json "report: its source" '"source": "convex-hull"'
 expect 0 "NaN, verified" $prohull verify wrapped.off nan.off --finite-only
 says out "NaN, verified" "3 faces of the original are not finite"

@@ -77,7 +77,7 @@ expect 0 "no openings" $prohull convex twice.obj --pieces 1 -o piece.obj
 says out "no openings" "and its inside after repairs"
 expect 0 "a closed sheet" $prohull build sheet.obj --faces 8 -o hull.obj
 says out "a closed sheet" "bounds no solid: the mesh encloses no volume"
-says out "a hull of a slab is wider" "the hull is one of a slab around them"
+says out "a hull of a slab is thinner at its rim" "the hull is one of a thin solid around them"
 says out "one pair" "(the mesh: 1 pair of faces)"
 
 expect 3 "no inner hull of a closed sheet" $prohull build sheet.obj --side inner -o hull.obj

@@ -460,10 +460,11 @@ TEST(EnclosingHull, KeepsAnEasyBoundOfAnOpenMesh) {
   EXPECT_LE(easy.excess, 1);
 }
 
-TEST(EnclosingHull, OfADistanceOfZeroIsBuilt) {
+TEST(EnclosingHull, AtADistanceOfZeroIsTheMeshItself) {
   const EnclosingHull hull = enclosing_hull(make_sample("asteroid", 60), 20, {.bounds = {.max_distance = 0}});
-  EXPECT_TRUE(hull.certified);
-  EXPECT_FALSE(hull.within_bounds);
+  EXPECT_TRUE(hull.certified && hull.within_bounds);
+  EXPECT_EQ(hull.mesh.face_count(), 60);
+  EXPECT_EQ(hull.verdict.distance().upper, 0);
 }
 
 // What it misses by is kept when it is allowed.

@@ -53,6 +53,22 @@ TEST(DistanceBounds, IsFoundWhereNoCornerIs) {
   EXPECT_NEAR(bounds.farthest.x, 0, 0.01);
 }
 
+TEST(DistanceBounds, OfNeedlesHoldToo) {
+  const TriangleMesh needle = box({0, 0, 0}, {1e6, 1e-6, 1e-6});
+  EXPECT_EQ(distance_bounds(needle, needle).lower, 0) << "the closest points that are found are others";
+  const TriangleMesh rod = box({0, 0, 0}, {1e4, 1e-3, 1e-3}), beside = box({0, 1e-9, 0}, {1e4, 1e-3 + 1e-9, 1e-3});
+  const DistanceBounds bounds = distance_bounds(rod, beside);
+  EXPECT_LE(bounds.lower, 1e-9 * (1 + 1e-6)) << "it was 2.5e-4";
+  EXPECT_GE(bounds.upper, 1e-9);
+}
+
+TEST(DistanceBounds, OfAMeshFromItselfHaveNoFarthestPoint) {
+  const TriangleMesh mesh = make_sample("knot", 1000);
+  const DistanceBounds bounds = distance_bounds(mesh, mesh);
+  EXPECT_EQ(bounds.lower, 0);
+  EXPECT_EQ(bounds.farthest, (Vec3{}));
+}
+
 TEST(DistanceBounds, HoldTheSampledDistanceOfHulls) {
   const TriangleMesh mesh = make_sample("knot", 1000);
   const ProgressiveHull hull = build_hull(mesh, {.target_faces = 100}).hull;

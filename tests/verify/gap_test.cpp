@@ -142,6 +142,7 @@ TEST(VerifyGap, IsDecidedInEveryUnit) {
     const double gap = std::ldexp(0.25, exponent);
     EXPECT_TRUE(verified(hull, cube, gap).certified) << exponent;
     EXPECT_FALSE(verified(hull, cube, above(gap)).keeps_gap) << exponent;
+    EXPECT_LE(verified(hull, cube, above(gap)).least_distance, above(gap)) << exponent;
     EXPECT_FALSE(verified(hull, cube, 1e100).keeps_gap) << exponent;
     EXPECT_EQ(verified(hull, cube, gap).least_distance,
               std::ldexp(verified(kLarge, kCube, 0.25).least_distance, exponent));

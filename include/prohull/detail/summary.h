@@ -30,10 +30,6 @@ std::string described_void(const EnclosingHulls& made, const EnclosingHull& hull
 std::string text_of_openings(bool has_openings, const DistanceBounds& from_triangles,
                              const char* openings = "its openings");
 
-/// Whether both have the very same triangles in the same order: a file that was read again, or a repaired mesh, may
-/// have its vertices numbered anew.
-bool has_triangles_of(const TriangleMesh& a, const TriangleMesh& b);
-
 /// A verdict about the finite triangles of a file, as it is of the file: with those that were left out.
 Verification of_file(Verification found, const RepairedMesh& input);
 
