@@ -66,9 +66,9 @@ double excess_when_padded(const TriangleMesh& hull, const Making& making) {
   return excess_of(left, hull, enclosed_volume(hull, left, most, making), most, making);
 }
 
-bool is_within_as_stored(const TriangleMesh& hull, const Making& making) {
+double excess_as_stored(const TriangleMesh& hull, const Making& making) {
   const auto [stored, why_not] = as_stored(hull, making);
-  return stored && excess_when_padded(stored->mesh, making) <= 1;
+  return stored ? excess_when_padded(stored->mesh, making) : std::numeric_limits<double>::infinity();
 }
 
 TriangleMesh placed(const TriangleMesh& level, const Making& making) {

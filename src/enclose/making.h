@@ -36,7 +36,8 @@ double verified_excess_of(const EnclosingHull& hull, const HullBounds& bounds, c
 /// The same of a hull that is moved away by the padding when it is done, if it is one of the mesh: it gains about its
 /// area times the padding. Wraps keep the padding themselves.
 double excess_when_padded(const TriangleMesh& hull, const Making& making);
-bool is_within_as_stored(const TriangleMesh& hull, const Making& making);
+/// With the coordinates that a file keeps; infinite if it has none.
+double excess_as_stored(const TriangleMesh& hull, const Making& making);
 
 constexpr double kNearerByMoving = 4;  ///< by moving, a hull comes so much nearer than its wrap
 

@@ -11,23 +11,26 @@
 namespace prohull {
 namespace {
 
-// Of the levels, the coarsest that keeps the bounds, if any does.
+// Of the levels, the coarsest that keeps the bounds. Where the solid misses them itself, as one whose cavities are
+// filled, the coarsest that is about as near: all bounds that are missed have the same answer.
 std::size_t faces_of_level(const ProgressiveHull& hull, const Making& making) {
+  constexpr double kAsNear = 1.01;
   const std::size_t target = making.candidate.target_faces;
   std::size_t faces = target;
-  if (making.bounds().any() && excess_when_padded(making.solid().mesh, making) <= 1)
-    faces = std::max(target,
-                     faces_within(hull, [&](const TriangleMesh& level) { return is_within_as_stored(level, making); }));
+  if (making.bounds().any()) {
+    const double least = excess_when_padded(making.solid().mesh, making), most = least <= 1 ? 1 : kAsNear * least;
+    const auto is_near = [&](const TriangleMesh& level) { return excess_as_stored(level, making) <= most; };
+    if (std::isfinite(least)) faces = std::max(target, faces_within(hull, is_near));
+  }
   if (!making.request.is_symmetric()) return faces;
   const std::size_t coarser = symmetric_faces(hull, *making.options().hull.mirror, faces);
   return faces > target && coarser < faces ? faces + 2 : coarser;  // bounds need the finer one
 }
 
 LevelTrial try_level(const ProgressiveHull& hull, std::size_t faces, const Making& making) {
-  LevelTrial trial{faces, placed(hull.level(faces), making), std::numeric_limits<double>::infinity()};
-  if (const auto [stored, why_not] = as_stored(trial.mesh, making); stored)
-    trial.excess = excess_when_padded(stored->mesh, making);
-  return trial;
+  TriangleMesh mesh = placed(hull.level(faces), making);
+  const double excess = excess_as_stored(mesh, making);
+  return {faces, std::move(mesh), excess};
 }
 
 // Whether many faces keep the bounds, or else how near they come: with four times as many, a hull of a tangled head had

@@ -33,8 +33,8 @@ TightHull tight_of_solid(const Making& making) {
   const double aim = making.request.aim();
   if (!making.bounds().any()) return tight_of(mesh, wrapped, aim, making);
   return build_tight_hull_within(
-      mesh, [&](const TriangleMesh& hull) { return is_within_as_stored(hull, making); }, making.hull_options(), wrapped,
-      aim, making.candidate.most_faces);
+      mesh, [&](const TriangleMesh& hull) { return excess_as_stored(hull, making) <= 1; }, making.hull_options(),
+      wrapped, aim, making.candidate.most_faces);
 }
 
 EnclosingHull as_hull(TightHull tight) {

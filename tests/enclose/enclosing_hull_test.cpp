@@ -484,6 +484,18 @@ TEST(EnclosingHull, OfABoundThatNoHullKeepsIsNear) {
   EXPECT_TRUE(kept.within_bounds && kept.excess <= 1);
 }
 
+// What its cavity has of volume is too much for the bound; a hull of few faces has much more.
+TEST(EnclosingHull, WhatMissesABoundByItsCavitiesIsNear) {
+  const TriangleMesh rock = make_sample("asteroid", 200);
+  TriangleMesh cavity = rock;
+  for (Vec3& p : cavity.positions) p = 0.3 * p;
+  for (auto& [a, b, c] : cavity.triangles) std::swap(b, c);
+  const EnclosingHulls made = hull_of(together(rock, cavity), 20, {.bounds = {.max_void_ratio = 0.01}});
+  const double filled = signed_volume(rock) / made.volume - 1;
+  EXPECT_FALSE(only(made).within_bounds);
+  EXPECT_LE(only(made).void_ratio, 1.02 * filled);
+}
+
 // The wrap is as fine as the bound asks for, whatever the number of faces.
 TEST(EnclosingHull, OfASoupKeepsACloseBound) {
   const TriangleMesh soup = without_a_face(make_sample("bracket", 200));
