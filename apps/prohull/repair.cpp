@@ -20,15 +20,18 @@ struct RepairRunOptions {
 
 struct RepairOutcome {
   ClosedSolid solid;
-  Verdict verdict;  ///< of the file
+  InsideVolume inside;  ///< of it
+  Verdict verdict;      ///< of the file
   double read_seconds = 0, seconds = 0;
 
   bool is_wrap() const { return solid.source == Source::Wrap; }
 };
 
-/// Parts that overlap count once, where the verdict has measured them.
-double volume_of(const ClosedSolid& solid) {
-  return std::isnan(solid.verdict.hull_volume) ? signed_volume(solid.mesh) : solid.verdict.hull_volume;
+/// Parts that overlap count once; what the verdict has measured is not measured again.
+InsideVolume inside_of(const ClosedSolid& solid) {
+  if (!std::isnan(solid.verdict.hull_volume)) return {solid.verdict.hull_volume};
+  ProgressLine line;
+  return volume_inside(solid.mesh, std::ref(line));
 }
 
 void print_summary(const RepairRunOptions& options, const RepairOutcome& outcome) {
@@ -40,8 +43,10 @@ void print_summary(const RepairRunOptions& options, const RepairOutcome& outcome
   if (outcome.is_wrap() && solid.input.closed)
     say("  the repaired mesh{} does not cover all triangles\n",
         options.solid.float32_coordinates ? ", with float32 coordinates (.ply, .obj and .off keep doubles)," : "");
-  say("{}: {} of {}, volume {:.9g}\n", output_name(options.out), outcome.is_wrap() ? "wrap" : "solid",
-      counted(solid.mesh.face_count(), "face"), volume_of(solid));
+  const auto& [volume, is_estimated] = outcome.inside;
+  say("{}: {} of {}, volume {}\n", output_name(options.out), outcome.is_wrap() ? "wrap" : "solid",
+      counted(solid.mesh.face_count(), "face"),
+      is_estimated ? fmt::format("about {:.3g} (estimated)", volume) : fmt::format("{:.9g}", volume));
   if (solid.folds.faces > 0)
     say("  {}: the faces around them were replaced by others, which cover them\n", describe(solid.folds));
   if (outcome.is_wrap())
@@ -64,7 +69,8 @@ nlohmann::json report_of(const RepairRunOptions& options, const RepairOutcome& o
           {"path", options.out.string()},
           {"faces", solid.mesh.face_count()},
           {"vertices", solid.mesh.vertex_count()},
-          {"volume", volume_of(solid)},
+          {"volume", outcome.inside.volume},
+          {"volume_is_estimated", outcome.inside.is_estimated},
           {"source", name_of(source_names(), solid.source)},
           {"wrap_spacing", outcome.is_wrap() ? nlohmann::json(solid.wrap_spacing) : nlohmann::json()},
           {"folds", facts(solid.folds)},
@@ -86,6 +92,7 @@ int run_repair(RepairRunOptions options) {
   const Stopwatch repairing;
   outcome.solid = naming(options.in, options.solid,
                          [&](const ClosedSolidOptions& how) { return closed_solid(std::move(mesh), how); });
+  outcome.inside = inside_of(outcome.solid);
   outcome.seconds = repairing.seconds();
   const ClosedSolid& solid = outcome.solid;
   Outputs outputs;

@@ -262,6 +262,13 @@ for height in 0.04 0.06; do
   expect 0 "pieces of a solid that is crossed" $prohull verify pieces.obj crossed.obj --union
   is "one void of pieces and verify" awk -v said="$said" '/void/ { d = $(NF - 1) - said; near = d * d < 0.0002 } END { exit !near }' out
 done
+for i in $(seq 0 59); do
+  awk -v i=$i '/^v / { a = 0.052 * i; x = 3 * ($2 - 0.5); y = 0.2 * ($3 - 0.5)
+    print "v", x * cos(a) - y * sin(a), x * sin(a) + y * cos(a), $4 }
+    /^f / { print "f", $2 + 8 * i, $3 + 8 * i, $4 + 8 * i }' cube.obj
+done >fan.obj
+expect 0 "a volume that takes too long" $prohull repair fan.obj -o solid.obj
+is "a volume that takes too long" awk '/estimated/ { near = 6.5 < $8 && $8 < 7.7 } END { exit !near }' out
 expect 0 "as a whole inside out" $prohull verify hull.ply crossed.obj
 says out "as a whole inside out" "24 faces of the original count as turned, as its volume is negative: 12 of these look inwards"
 says_not out "as a whole inside out" "24 faces of the original look inwards"
