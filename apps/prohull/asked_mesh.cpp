@@ -9,6 +9,7 @@
 #include "options.h"
 #include "outputs.h"
 #include "paper/engines.h"
+#include "prohull/closed_solid.h"
 #include "prohull/detail/summary.h"
 #include "prohull/error.h"
 
@@ -28,6 +29,18 @@ Box AskedMesh::box() const {
   return bounding_box(mesh ? *mesh : std::get<ProgressiveHull>(mesh_or_hull_).original());
 }
 
+void AskedMesh::close() {
+  auto* const mesh = std::get_if<TriangleMesh>(&mesh_or_hull_);
+  naming(path_, [&] {
+    const ClosedSolidOptions how;
+    if (!mesh || is_closed(*mesh) || !repaired_mesh(*mesh, how.repair).closed) return;
+    ClosedSolid solid = closed_solid(*mesh, how);
+    if (solid.source != Source::Mesh || !solid.verdict.certified) return;
+    *mesh = std::move(solid.mesh);
+    repairs_ = describe(solid.input.repairs);
+  });
+}
+
 InsideOut AskedMesh::inside_out() const {
   const auto* const mesh = std::get_if<TriangleMesh>(&mesh_or_hull_);
   return naming(path_, [&] { return mesh && is_closed(*mesh) ? inside_out_parts(*mesh) : InsideOut{}; });
@@ -44,11 +57,17 @@ QueryIndex AskedMesh::index(std::string_view engine) {
 }
 
 nlohmann::json AskedMesh::facts() const {
-  return {{"path", path_.string()}, {"faces", faces_}, {"finest_level", name_of(finest_level_names(), finest_level_)}};
+  return {{"path", path_.string()},
+          {"faces", faces_},
+          {"finest_level", name_of(finest_level_names(), finest_level_)},
+          {"repairs", repairs_}};
 }
 
 void AskedMesh::say_what() const {
   say("{}: {}\n", input_name(path_), counted(faces_, "face"));
+  if (!repairs_.empty())
+    say("  it is not closed, and the solid is asked that `prohull repair` makes of it: {}\n",
+        fmt::join(repairs_, "; "));
   if (const std::string finest = described_finest_level(finest_level_); !finest.empty())
     say("  these are faces of {}: the finest level of the file is not the input itself\n", finest);
 }

@@ -26,6 +26,10 @@ class AskedMesh {
   /// The components that are inside out; none if the mesh is not closed. It must be asked before the index is made.
   InsideOut inside_out() const;
 
+  /// A mesh that is not closed becomes the solid that `prohull repair` makes of it, unless that is a wrap: that would
+  /// be another solid.
+  void close();
+
   /// The mesh or hull goes into the index. What `make` throws then names the file.
   QueryIndex index(const std::function<QueryIndex(MeshOrHull)>& make);
   /// The index of the engine with this name, which index_called (paper/engines.h) makes.
@@ -40,6 +44,7 @@ class AskedMesh {
   MeshOrHull mesh_or_hull_;
   std::size_t faces_;
   FinestLevel finest_level_;
+  std::vector<std::string> repairs_;  ///< what has closed it
 };
 
 /// Queries that are made at random.

@@ -27,11 +27,12 @@ PointAnswers ask(const QueryIndex& index, const std::vector<Vec3>& points, const
 
 void add_contains(CLI::App& app, Run& run) {
   const auto options = std::make_shared<PointOptions>();
-  options->is_about_inside = true;
-  CLI::App& command = *app.add_subcommand("contains",
-                                          "Decides which points are inside of a mesh, exactly. The mesh must be "
-                                          "closed. A point is inside if the mesh winds "
-                                          "around it at least once, so cavities are outside.");
+  options->is_about_inside = options->closes = true;
+  CLI::App& command = *app.add_subcommand(
+      "contains",
+      "Decides which points are inside of a mesh, exactly. A point is inside if the mesh winds around it at least "
+      "once, so cavities are outside. Of a mesh that is not closed, the solid is asked that `prohull repair` makes of "
+      "it; one that repairs do not close is refused.");
   add_point_options(command, *options, inside_outputs());
   add_examples(command,
                {"prohull contains horse.ply --random 1e6", "prohull contains part.stl --points p.npy -o in.npz",

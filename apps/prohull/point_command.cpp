@@ -53,6 +53,7 @@ int run_points(const PointOptions& options, const OutputKind& answers, const Ask
   seconds.read = reading.seconds();
   stop_if_interrupted();
   const Stopwatch indexing;
+  if (options.closes) asked.close();
   const InsideOut inside_out = options.is_about_inside ? asked.inside_out() : InsideOut{};
   const QueryIndex index = asked.index(options.engine);
   seconds.index = indexing.seconds();

@@ -24,6 +24,7 @@ struct PointOptions {
   std::string engine = "auto";
   unsigned threads = 0;
   bool is_about_inside = false;  ///< and not of the faces alone
+  bool closes = false;           ///< a mesh that is not closed, where answers do not number its faces
   double bytes_per_point = 45;   ///< of memory, measured
 };
 

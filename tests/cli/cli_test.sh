@@ -100,10 +100,16 @@ says err "no length: below 0" "--gap must be greater than 0, not -1mm"
 
 # --- the solid of a mesh ---
 awk '/^f / { n++; if (n > 10 && n < 20 || n == 100) next } { print }' inner.obj >open.obj
-expect 3 "no inside" $prohull contains open.obj --random 10
+expect 3 "no inside" $prohull distance open.obj --random 10 --signed
 says err "no inside" "\`prohull repair\` closes it"
+expect 0 "one solid" $prohull contains open.obj --random 1000
+says out "one solid" "openings, the largest"
+grep inside out >inside_of_open
 expect 0 "repair" $prohull repair open.obj -o solid.ply --report solid.json
 says out "repair: openings" "openings, the largest"
+$prohull contains solid.ply --random 1000 | grep inside >inside_of_solid
+is "one solid" cmp inside_of_open inside_of_solid
+expect 0 "repair" $prohull repair open.obj -o solid.ply --report solid.json
 says out "repair: certified" "certified: yes, the file as written covers every triangle of the original, and its inside with its openings closed by"
 says solid.json "repair: report" '"largest": 0.'
 says solid.json "repair: source" '"source": "mesh"'
@@ -505,8 +511,13 @@ for command in contains distance; do
   says err "$command of no faces" "empty.off: it has no faces"
 done
 sed '2s/4 4 0/4 3 0/; $d' unit.off >open.off
-expect 3 "contains of an open mesh" $prohull contains open.off --points points.csv -o bad_points.csv
-says err "contains of an open mesh" "open.off: the mesh is not closed"
+$prohull contains unit.off --points points.csv -o closed_points.csv >/dev/null
+expect 0 "contains of an open mesh" $prohull contains open.off --points points.csv -o open_points.csv
+says out "contains of an open mesh" "it is not closed, and the solid is asked that \`prohull repair\` makes of it: closed 1 opening"
+is "contains of an open mesh" cmp closed_points.csv open_points.csv
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >leaf.off
+expect 3 "contains of a leaf" $prohull contains leaf.off --points points.csv -o bad_points.csv
+says err "contains of a leaf" "leaf.off: the mesh is not closed"
 expect 3 "signed distance of an open mesh" $prohull distance open.off --points points.csv -o bad_points.csv --signed
 expect 0 "distance of an open mesh" $prohull distance open.off --points points.csv
 absent "bad_points.csv" "commands that ask points"
