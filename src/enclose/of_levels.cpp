@@ -71,11 +71,13 @@ EnclosingHull built_of_levels(const Making& making) {
   const TriangleMesh level = result.hull.level(faces);
   EnclosingHull hull;
   hull.mesh = moved ? std::move(moved->mesh) : TriangleMesh(level);
-  hull.target_reached = making.bounds().any() && faces > making.candidate.target_faces;  // which they ask for
+  const bool is_coarsest = level.face_count() == result.hull.base_face_count();
+  hull.target_reached = making.bounds().any() && faces > making.candidate.target_faces &&  // which they ask for
+                        !(making.request.is_bound_to_mesh() && is_coarsest);
   if (hull.mesh == level)
     hull.levels = faces > result.hull.base_face_count() ? result.hull.with_base(faces) : result.hull;
   hull.refusals = result.refusals, hull.blocked = result.blocked;
-  if (level.face_count() == result.hull.base_face_count()) hull.relaxed_guards = result.relaxed_guards;
+  if (is_coarsest) hull.relaxed_guards = result.relaxed_guards;
   return hull;
 }
 

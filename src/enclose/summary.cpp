@@ -66,7 +66,7 @@ std::string described_topology(const TriangleMesh& hull) {
 std::string described_guards(const EnclosingHull& hull) {
   const ShapeGuards& guards = kRelaxedGuards[hull.relaxed_guards - 1];
   return fmt::format("shape guards relaxed{}: normals may turn by {:.0f} degrees{}, step {} of {}",
-                     hull.target_reached ? " to reach it" : "", guards.max_normal_deviation / kRadiansOfDegree,
+                     hull.mesh.face_count() <= hull.target_faces ? " to reach it" : "", guards.max_normal_deviation / kRadiansOfDegree,
                      std::isfinite(guards.max_overhang) ? "" : " and spikes are allowed", hull.relaxed_guards,
                      kRelaxedGuards.size());
 }

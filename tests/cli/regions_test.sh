@@ -17,6 +17,15 @@ says hull.json "report: regions" '"kept": true'
 says hull.json "report: the distance" '"distance_bound": 0.0'
 expect 0 "regions: the hull encloses" $prohull verify hull.obj bracket.obj
 expect 0 "regions, float32 that the samples have" $prohull build bracket.obj --faces 600 --tolerance regions.yaml -o hull.stl
+cat >tight.yaml <<END
+regions:
+  - {name: all, box: [[-9, -9, -9], [9, 9, 9]], max_distance: 0.001}
+END
+for bound in "" "--max-void 50" "--max-distance 0.5"; do
+  expect 1 "a target out of reach $bound" $prohull build bracket.obj --faces 12 --tolerance tight.yaml --strict $bound -o hull.obj
+  says out "a target out of reach $bound" "no legal collapse is left above the 12 faces asked for"
+  says_not out "a target out of reach $bound" "relaxed to reach it"
+done
 expect 0 "regions: inner" $prohull build bracket.obj --faces 600 --side inner --tolerance regions.yaml -o inner.obj
 expect 0 "regions: all levels" $prohull build bracket.obj --faces 600 --tolerance regions.yaml -o a.obj --hierarchy a.phull
 expect 0 "regions: recentered" $prohull build bracket.obj --faces 600 --tolerance regions.yaml --recenter -o a.obj
