@@ -26,8 +26,9 @@ namespace {
 
 using nlohmann::json;
 
+/// Faces and vertices keep their order, so that the page knows their numbers.
 TriangleMesh drawable(const TriangleMesh& mesh, const std::string& name) {
-  TriangleMesh finite = finite_part(mesh);
+  TriangleMesh finite = without_unused_vertices(with_finite_faces(mesh));
   if (finite.face_count() == 0) throw InputError(Defect::EmptyMesh, name + ": it has no finite face to show");
   return finite;
 }
@@ -187,6 +188,7 @@ class Writer {
             {"kind", "mesh"},
             {"facts", mesh_facts(mesh)},
             {"left_out", given.face_count() - mesh.face_count()},
+            {"left_out_vertices", given.vertex_count() - mesh.vertex_count()},
             {"positions", blocks_.running(positions, 3)},
             {"triangles", blocks_.running(triangles, 1)}};
   }

@@ -113,6 +113,44 @@ function linkPoses(joints, positions) {
   return Object.fromEntries(joints.flatMap(({parent, child}) => [parent, child]).map((link) => [link, poseOf(link)]));
 }
 
+/** A table of the page as an object. */
+const tableOf = (page, selector) => page.evaluate((place) => Object.fromEntries([...document.querySelectorAll(`${place} tr`)]
+    .map((row) => [...row.children].map(({textContent}) => textContent))), selector);
+const pointOf = (told) => /\(([^)]*)\)/.exec(told)[1].split(', ').map(Number);
+const apart = (p, q) => Math.hypot(...p.map((x, k) => x - q[k]));
+const isNear = (p, q, most = 1e-5) => assert.ok(apart(p, q) < most, `${p} is not near ${q}`);
+
+// Meshes as OBJ files have them.
+const meshOf = (file) => {
+  const rows = (mark) => [...fs.readFileSync(at(file), 'utf8').matchAll(new RegExp(`^${mark} (.*)$`, 'gm'))].map(([, row]) => row.split(' '));
+  const points = rows('v').map((row) => row.map(Number));
+  return {points, faces: rows('f').map((row) => row.map((v) => parseInt(v, 10) - 1))};
+};
+const QUADS = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+const ORDER = [7, 0, 5, 2, 3, 6, 1, 4];  // not that in which the faces use the corners
+function writeBox(file, half, without = []) {
+  const points = ORDER.map((corner) => `v ${[0, 1, 2].map((k) => corner >> k & 1 ? half : -half).join(' ')}`);
+  const faces = QUADS.filter((_, i) => !without.includes(i)).flatMap(([a, b, c, d]) => [[a, b, c], [a, c, d]]);
+  fs.writeFileSync(at(file), [...points, ...faces.map((face) => `f ${face.map((corner) => ORDER.indexOf(corner) + 1).join(' ')}`)].join('\n'));
+}
+/** Whether a point lies in a triangle: the areas that it makes with the sides are that of the triangle together. */
+function isIn(point, [a, b, c]) {
+  const area = (p, q, r) => {
+    const u = q.map((x, k) => x - p[k]), v = r.map((x, k) => x - p[k]);
+    return Math.hypot(...[0, 1, 2].map((k) => u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3])) / 2;
+  };
+  return Math.abs(area(point, a, b) + area(point, b, c) + area(point, c, a) - area(a, b, c)) < 1e-5 * (1 + area(a, b, c));
+}
+/** The picked point, after a look at whether it is on the face that is told, and the corner that is told is the nearest. */
+function checkPicked(told, {points, faces}) {
+  const number = (text) => Number(text.split(', at')[0].replaceAll(',', ''));
+  const point = pointOf(told.Position), face = faces[number(told.Face)], corner = number(told['Nearest corner']);
+  assert.ok(isIn(point, face.map((v) => points[v])), `${point} is on face ${told.Face}`);
+  assert.ok(face.includes(corner) && face.every((v) => apart(points[v], point) >= apart(points[corner], point) - 1e-5));
+  isNear(pointOf(told['Nearest corner']), points[corner]);
+  return point;
+}
+
 function makeFiles() {
   run('sample', 'pony', '-o', at('pony.ply'), '--faces', '6000');
   run('build', at('pony.ply'), '--faces', '400', '-o', at('hull.stl'), '--hierarchy', at('pony.phull'));
@@ -196,6 +234,7 @@ const tests = {
   async 'a ray takes as many tests and splits as prohull query counts'() {
     const page = await opened('levels.html');
     const base = await picture(page);
+    await page.click('#by-click');
     for (const [x, y] of [[260, 310], [300, 330], [335, 290], [10, 10]]) {
       await page.mouse.click(x, y);
       const ray = await text(page, 'ray');
@@ -446,6 +485,102 @@ const tests = {
     await page.locator('#move').click();
     await page.waitForFunction(() => prohullView.motion.time > 0 && prohullView.motion.time < 3);
     await page.locator('#move').click();
+    await closed(page);
+  },
+
+  async 'a click picks a face, a second one measures'() {
+    writeBox('within.obj', 1);
+    writeBox('around.obj', 1.25);
+    run('view', at('around.obj'), '--original', at('within.obj'), '-o', at('two_boxes.html'));
+    const page = await opened('two_boxes.html', {fragment: '#v=0,0,4,0,0,0'}), told = () => tableOf(page, '#picked');
+    const bare = await picture(page);
+    await page.mouse.click(240, 250);
+    const a = checkPicked(await told(), meshOf('around.obj')), {On, 'To within.obj': away} = await told();
+    assert.equal(On, 'around.obj');
+    assert.equal(away, '0.25');
+    assert.equal(a[1], -1.25, 'it is the nearest face');
+    const marked = await picture(page);
+    assert.notEqual(marked.sum, bare.sum);
+    await page.mouse.move(300, 300);
+    await page.mouse.down();
+    await page.mouse.move(330, 300, {steps: 3});
+    await page.mouse.up();
+    isNear(pointOf((await told()).Position), a);  // a drag picks nothing
+    await page.evaluate(() => prohullView.viewport.look(0, 0));
+    await page.uncheck('#show-1');
+    await page.click('#second');
+    await page.mouse.click(330, 400);
+    const found = await told(), b = checkPicked(found, meshOf('within.obj'));
+    assert.equal(found['To around.obj'], '0.25');
+    assert.equal(b[1], -1);
+    isNear(['dx', 'dy', 'dz'].map((name) => Number(found[name])), b.map((x, k) => x - a[k]));
+    assert.ok(Math.abs(await number(page, 'measured-distance') - apart(a, b)) < 1e-5);
+    await page.keyboard.down('Shift');
+    await page.mouse.click(300, 250);
+    await page.keyboard.up('Shift');
+    assert.ok((await told()).dz !== found.dz, 'shift and click moves the second point');
+    await page.focus('#opacity');
+    await page.keyboard.press('Escape');
+    assert.match(await text(page, 'picked'), /^A click picks/);
+    await page.check('#show-1');
+    await page.evaluate(() => prohullView.viewport.look(0, 0, 4 * prohullView.space.radius));
+    assert.equal((await picture(page)).sum, bare.sum);
+    await page.focus('#canvas');
+    for (const key of ['c', 'ArrowLeft', 'm']) await page.keyboard.press(key);
+    assert.ok(await number(page, 'measured-distance') > 0, 'keys pick, too');
+    await page.check('#beside');
+    await page.mouse.click(480, 300);
+    assert.equal((await told()).On, 'within.obj', 'side by side, what is in the panel is picked');
+    await page.selectOption('#cut', 'y');
+    await page.mouse.click(200, 320);
+    assert.deepEqual(await told(), {'Section of': 'around.obj', Position: (await told()).Position, 'To within.obj': (await told())['To within.obj']});
+    assert.equal(pointOf((await told()).Position)[1], 0, 'a section is picked in its plane');
+    await closed(page);
+  },
+
+  async 'what is picked follows the level'() {
+    const page = await opened('levels.html', {fragment: '#l=1000'});
+    const isOnLevel = (told, most) => {
+      run('lod', at('pony.phull'), '--faces', String(most), '-o', at('picked.obj'));
+      const {points, faces} = meshOf('picked.obj'), point = pointOf(told.Position), corner = pointOf(told['Nearest corner']);
+      const face = faces.map((corners) => corners.map((v) => points[v])).find((corners) => isIn(point, corners));
+      assert.ok(face && face.some((p) => apart(p, corner) < 1e-5), `${point} is on the level`);
+      return point;
+    };
+    await page.mouse.click(290, 330);
+    const places = [];
+    for (const faces of [1000, 400, 2345]) {
+      await page.fill('#wanted', String(faces));
+      await page.press('#wanted', 'Enter');
+      places.push(isOnLevel(await tableOf(page, '#picked'), faces));
+    }
+    const to = places.map((place) => place.map((x, k) => x - places[0][k])).slice(1), [u, v] = to;
+    const sine = Math.hypot(...[0, 1, 2].map((k) => u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3])) /
+        Math.hypot(...u) / Math.hypot(...v);
+    assert.ok(sine < 1e-2, 'it stays on the line of sight');
+    await page.uncheck('#show-1');
+    await page.mouse.click(290, 330);
+    isOnLevel(await tableOf(page, '#picked'), 6000);
+    await closed(page);
+  },
+
+  async 'a picked point of a link moves with it'() {
+    const link = (name) => `<link name="${name}"><collision><geometry><box size="1 1 1"/></geometry></collision></link>`;
+    fs.writeFileSync(at('turns.urdf'), `<robot name="turns">${link('a <b>x</b>')}${link('b')}
+      <joint name="out" type="prismatic"><parent link="a &lt;b>x&lt;/b>"/><child link="b"/><origin xyz="2 0 0"/><axis xyz="0 0 1"/>
+        <limit lower="-2" upper="0.5" effort="1" velocity="1"/></joint></robot>`.replace('name="a <b>x</b>"', 'name="a &lt;b>x&lt;/b>"'));
+    run('view', at('turns.urdf'), '-o', at('turns.html'));
+    const page = await opened('turns.html', {fragment: '#v=0,0,4,0,0,0'});
+    await page.mouse.click(110, 320);
+    assert.equal((await tableOf(page, '#picked')).On, 'a <b>x</b> of turns.urdf, collision');
+    await page.click('#second');
+    await page.mouse.click(470, 320);
+    const before = await tableOf(page, '#picked');
+    await page.locator('#joint-0').press('End');
+    const after = await tableOf(page, '#picked');
+    assert.equal(after.On, 'b of turns.urdf, collision');
+    assert.equal(after.dx, before.dx);
+    assert.ok(Math.abs(parseFloat(after.dz) - parseFloat(before.dz) - 0.5) < 1e-5);
     await closed(page);
   },
 

@@ -6,6 +6,7 @@ import {listen} from './act/keys.js';
 import {LevelControl} from './act/levels.js';
 import {Look} from './act/look.js';
 import {MotionControl} from './act/motion.js';
+import {Picks} from './act/picks.js';
 import {Places} from './act/places.js';
 import {RayControl} from './act/rays.js';
 import {RobotControl} from './act/robots.js';
@@ -35,12 +36,15 @@ export class View {
     this.look = new Look(this);
     this.section = new Section(this);
     this.places = new Places(this);
+    this.picks = new Picks(this);
     listen(this);
     this.open();
   }
 
   get originalName() { return this.original?.name ?? 'the finest level'; }
   get allBodies() { return [...this.bodies.map((entry) => entry.body), ...(this.base ? [this.base] : [])]; }
+  /** The same, those of links one by one. */
+  get surfaces() { return this.allBodies.flatMap((body) => body.bodies ?? [body]); }
 
   open() {
     this.look.direct();
@@ -61,6 +65,7 @@ export class View {
   activate(i) {
     this.rays.end();
     this.rays.forget();
+    this.picks.next = 'first';
     this.active = this.hulls[i];
     this.state.active = i;
     byId('content').replaceChildren();
@@ -73,6 +78,7 @@ export class View {
     this.panel?.showLevel();
     this.panel?.showFarthest();
     if (this.panel) this.places.mark();
+    this.picks.follow();
     this.look.caption();
     this.viewport.changed();
     this.onRefresh?.();

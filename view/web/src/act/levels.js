@@ -30,6 +30,7 @@ export class LevelControl {
     this.view.state.faces = faces;
     if (calm()) return this.arrive();
     if (this.glide) return;
+    this.view.picks.hide();
     this.glide = {faces: from, ahead: 0, time: performance.now()};
     const run = () => {
       if (!this.glide) return;

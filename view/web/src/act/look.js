@@ -84,6 +84,7 @@ export class Look {
   }
   setExplosion(factor) {
     this.view.state.explosion = explosion.value = factor;
+    this.view.picks.show();
     this.view.viewport.changed();
   }
 

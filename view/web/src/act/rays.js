@@ -1,7 +1,6 @@
 // A ray meets the active progressive hull, which is split only where it does.
 
 import {Refinement} from '../data/query.js';
-import {byId} from '../panel/dom.js';
 
 const FOUND = '#00664a', MISSED = '#a33600', RAY = '#5b2a86';
 
@@ -36,14 +35,11 @@ export class RayControl {
   shootAt(x, y) {
     const {active, state, viewport, space} = this.view;
     if (!active.levels || state.beside) return;
-    const {origin, direction} = viewport.ray(x, y), from = space.point(origin);
-    const to = space.point(origin.map((o, k) => o + direction[k]));
+    const {origin, direction} = viewport.ray(x, y), from = space.point(origin.toArray());
+    const to = space.point(origin.clone().add(direction).toArray());
     this.shoot({origin: from, direction: to.map((x, k) => x - from[k])});
   }
-  shootThroughMiddle() {
-    const box = byId('canvas').getBoundingClientRect();
-    this.shootAt(box.left + box.width / 2, box.top + box.height / 2);
-  }
+  shootThroughMiddle() { this.shootAt(...this.view.viewport.middle); }
 
   /** The level is shown again that was shown before. */
   end() {

@@ -41,6 +41,7 @@ export class RobotControl {
       hull.linkPoses.forEach((pose, i) => hull.linkBodies[i].forEach((body) => body.move(pose)));
     }
     this.tell();
+    this.view.picks.show();
     this.view.viewport.changed();
     this.collide();
   }

@@ -1,6 +1,7 @@
 // The panel beside the picture. It knows elements, and calls `view` for all else.
 
 import {atLeast, atMost, byId, counted, el, grouped, percent, place, short, svg} from './dom.js';
+import {pickedElements} from './picked.js';
 
 const FINEST_LEVEL = {
   repaired: 'the repaired input', 'convex-hull': 'the convex hull of the input', wrap: 'a wrap of the input'};
@@ -52,8 +53,8 @@ export class Panel {
     this.live = {};
     byId('fold').onclick = () => this.fold(byId('fold').getAttribute('aria-expanded') === 'true');
     this.content.append(...[
-      this.heading(), this.levelPart(), this.motionPart(), this.jointsPart(), this.collisionsPart(), this.queryPart(),
-      this.shownPart(), this.cutPart(), this.distancePart(), this.outsidePart(), this.factsPart(), this.cameraPart(), this.notePart()].filter(Boolean));
+      this.heading(), this.levelPart(), this.motionPart(), this.jointsPart(), this.collisionsPart(), this.pickedPart(),
+      this.queryPart(), this.shownPart(), this.cutPart(), this.distancePart(), this.outsidePart(), this.factsPart(), this.cameraPart(), this.notePart()].filter(Boolean));
   }
 
   get object() { return this.view.active; }
@@ -197,12 +198,33 @@ export class Panel {
             (this.view.hulls.some(({robot}) => !robot) ? ' Meshes beside the robot are not compared.' : '')));
   }
 
+  pickedPart() {
+    const {live, view: {picks}} = this;
+    live.picked = el('div', {id: 'picked', 'aria-live': 'polite'});
+    live.second = el('button', {type: 'button', id: 'second', 'aria-pressed': 'false', onclick: () => picks.setNext('second')}, 'Second point');
+    live.endPick = el('button', {type: 'button', id: 'end-pick', onclick: () => picks.end()}, 'End');
+    return el('section', {}, el('h2', {}, 'Points'), live.picked, el('div', {class: 'row'}, live.second, live.endPick));
+  }
+
+  /** Where the picked points are. Screen readers tell only what has changed. */
+  showPicked() {
+    const {live, view: {picks}} = this, told = el('div', {}, ...pickedElements(picks, table));
+    for (const button of [live.second, live.endPick]) button.hidden = picks.points.length === 0;
+    if (told.textContent !== live.picked.textContent) live.picked.replaceChildren(told);
+  }
+  showNext() {
+    const {live, view: {picks: {next}}} = this;
+    live.second.setAttribute('aria-pressed', String(next === 'second'));
+    live.byClick?.setAttribute('aria-pressed', String(next === 'ray'));
+  }
+
   queryPart() {
     if (!this.object.levels) return null;
     const {view, live} = this;
     live.query = el('div', {id: 'query', 'aria-live': 'polite'});
     return el('section', {}, el('h2', {}, 'A ray'), live.query, el('div', {class: 'row'},
         el('button', {type: 'button', id: 'shoot', onclick: () => view.rays.shootThroughMiddle()}, 'Through the middle'),
+        live.byClick = el('button', {type: 'button', id: 'by-click', 'aria-pressed': 'false', onclick: () => view.picks.setNext('ray')}, 'By clicks'),
         live.endQuery = el('button', {type: 'button', id: 'end-query', onclick: () => view.rays.end()}, 'End')));
   }
 
@@ -212,7 +234,7 @@ export class Panel {
     if (!live.query) return;
     live.endQuery.hidden = !query;
     if (!query) {
-      live.query.replaceChildren(el('p', {class: 'soft'}, 'Click shoots a ray. The base mesh is then split only where the ray meets it.'));
+      live.query.replaceChildren(el('p', {class: 'soft'}, 'The base mesh is split only where a ray meets it.'));
       return;
     }
     const missed = query.hits.filter((hit) => !hit.found).length;
@@ -366,11 +388,12 @@ export class Panel {
     const {view} = this;
     const keys = [['arrows', 'turn'], ['shift + arrows', 'move'], ['+ −', 'zoom'], ['0', 'see all'], [', .', 'coarser, finer'],
       ['space', 'play'], ['e', 'edges'], ['h', 'distance as colour'], ['x y z', 'section'], ['[ ]', 'move the section'],
-      ['f', 'farthest point'], ['n', 'next place outside'], ['q', 'ray through the middle'], ['Esc', 'end the ray'], ['p', 'save PNG']];
+      ['f', 'farthest point'], ['n', 'next place outside'], ['c', 'pick in the middle'], ['m', 'second point in the middle'],
+      ['q', 'ray through the middle'], ['Esc', 'end the points or the ray'], ['p', 'save PNG']];
     const step = view.scene.grid.step;
     return el('section', {},
         el('details', {}, el('summary', {}, 'Keys, mouse and touch'),
-            el('p', {class: 'soft'}, 'Drag turns, the right button or two fingers move, the wheel or a pinch zooms.'),
+            el('p', {class: 'soft'}, 'Drag turns, the right button or two fingers move, the wheel or a pinch zooms. A click picks a face, and with shift a second point.'),
             el('dl', {class: 'keys'}, ...keys.flatMap(([key, what]) =>
               [el('dt', {}, el('kbd', {}, key)), el('dd', {}, what)]))),
         el('p', {class: 'soft', id: 'rounding'},

@@ -22,7 +22,7 @@ class Maker {
   }
 
   add(entry, options) {
-    const body = new Body({striped: entry.striped, ...options});
+    const body = new Body({striped: entry.striped, label: entry.label, ...options});
     this.view.viewport.add(body);
     this.entries.push({...entry, body});
     return body;
@@ -39,7 +39,7 @@ class Maker {
     const {original, hulls} = this.view, levels = hulls.find((hull) => hull.levels && !hull.original_shown);
     const how = {depth: DEPTH.original, color: CLAY, order: 20};
     const entry = {role: 'original', isGlass: this.hasInner};
-    if (original) this.add({label: original.name, ...entry}, {...how, mesh: original.mesh, closed: original.facts.watertight});
+    if (original) this.add({label: original.name, ...entry}, {...how, mesh: original.mesh, source: original, closed: original.facts.watertight});
     else if (levels) this.add({label: `${levels.name}, finest level`, ...entry},
         {...how, mesh: levels.levels.copy(levels.levels.count), closed: true});
   }
@@ -48,7 +48,7 @@ class Maker {
     const {levels} = hull, isAlone = this.entries.length === 0;
     const mesh = levels ? {positions: levels.positions, triangles: levels.corners, heat: levels.heat} : hull.mesh;
     hull.body = this.add({label: hull.name, role: 'hull', striped: !isAlone, isGlass: !isInner(hull)}, {
-      mesh, color: isAlone && this.view.hulls.length === 1 ? CLAY : color, order: this.order(hull),
+      mesh, source: hull, color: isAlone && this.view.hulls.length === 1 ? CLAY : color, order: this.order(hull),
       depth: isInner(hull) ? DEPTH.inner : DEPTH.outer,
       closed: hull.facts?.watertight ?? true,
       divided: hull.heat && !levels ? dividedMesh(hull.mesh, hull.heat, this.bytes) : null});
@@ -59,12 +59,13 @@ class Maker {
     const {space, viewport} = this.view;
     const bodiesOf = (which, how) => {
       const bodies = hull.links.map((link) => link[which] && new Body({mesh: linkMesh(link[which], space, this.bytes),
-        closed: link[which].facts.watertight, ...how}));
+        label: `${link.name} of ${hull.name}, ${which}`, source: link[which], closed: link[which].facts.watertight, ...how}));
       return {bodies, all: new Bodies(bodies.filter(Boolean), how.color)};
     };
     const visual = bodiesOf('visual', {color: CLAY, depth: DEPTH.original, order: 20});
     const collision = bodiesOf('collision', {color, depth: DEPTH.outer, order: 5, striped: true});
     hull.linkBodies = hull.links.map((_, i) => [visual.bodies[i], collision.bodies[i]].filter(Boolean));
+    for (const [a, b] of hull.linkBodies) if (b) [a.partner, b.partner] = [b, a];
     hull.collisionBodies = collision.bodies;
     for (const [role, word, {all}] of [['original', 'visual', visual], ['hull', 'collision', collision]]) {
       if (all.bodies.length === 0) continue;
@@ -79,7 +80,7 @@ class Maker {
     const {hulls, viewport} = this.view, sides = hulls.map((hull) => ({hull, name: hull.name, groups: hull.body.groups}));
     const found = {sides, base: null};
     if (hulls.length === 1 && hulls[0].levels) {
-      found.base = new Body({mesh: hulls[0].levels.copy(0), color: BLUE, closed: true, striped: true, order: 30});
+      found.base = new Body({mesh: hulls[0].levels.copy(0), label: `${hulls[0].name}, base mesh`, color: BLUE, closed: true, striped: true, order: 30});
       found.base.visible = false;
       viewport.add(found.base);
       sides.unshift({name: `base, ${grouped(hulls[0].base_faces)} faces`, groups: found.base.groups});

@@ -2,7 +2,7 @@
 
 import * as THREE from 'three';
 import {openEdges} from '../data/defects.js';
-import {capMaterial, countingMaterial, defectMaterial, edgeMaterial, rgb, surfaceMaterial} from './materials.js';
+import {capMaterial, countingMaterial, defectMaterial, edgeMaterial, explosion, rgb, surfaceMaterial} from './materials.js';
 
 /** Two ends for each edge of each face. */
 function linesOf(corners, lines, count) {
@@ -34,8 +34,11 @@ export class Body {
    * `divided` is the same surface with distances; without it those of `mesh` are shown. `order`: from the outside to the
    * inside. Sections are painted in that order, one over the other; surfaces the other way round, as the outer ones are glass.
    */
-  constructor({mesh, divided, color, closed, striped, order, depth = 1}) {
+  constructor({mesh, divided, color, closed, striped, order, depth = 1, label, source}) {
     this.mesh = mesh;
+    this.label = label;
+    this.source = source;  // what the page holds of it
+    this.order = order;
     this.color = color;
     this.closed = closed;
     this.group = new THREE.Group();
@@ -53,6 +56,7 @@ export class Body {
       [THREE.BackSide, THREE.IncrementWrapStencilOp], [THREE.FrontSide, THREE.DecrementWrapStencilOp],
     ].map(([side, operation]) =>
       this.add(new THREE.Mesh(this.geometry, countingMaterial(side, operation)), order + 0.1));
+    for (const object of [this.surface, ...this.counting]) object.getVertexPosition = (v, to) => this.vertexAt(v, to);
     this.cap = this.add(new THREE.Mesh(new THREE.PlaneGeometry(8, 8), capMaterial(rgb(color), striped ? 1 : 0)),
         order + 0.2);
     this.group.add(this.cap);
@@ -76,6 +80,27 @@ export class Body {
   move(matrix) {
     this.moved.matrix.copy(matrix);
     this.moved.matrixWorldNeedsUpdate = true;
+  }
+
+  /** How far explosion has moved a vertex. */
+  shiftOf(v) {
+    const {shift} = this.geometry.attributes, to = new THREE.Vector3();
+    return shift ? to.fromBufferAttribute(shift, v).multiplyScalar(explosion.value) : to;
+  }
+  vertexAt(v, to) {
+    to.fromBufferAttribute(this.geometry.attributes.position, v);
+    return this.hasParts ? to.add(this.shiftOf(v)) : to;
+  }
+
+  /** How far its surface is from a point in its frame. */
+  distanceTo(point) {
+    const {index, drawRange, attributes: {position}} = this.geometry, face = new THREE.Triangle(), nearest = new THREE.Vector3();
+    let least = Infinity;
+    for (let c = 0; c < Math.min(index.count, drawRange.count); c += 3) {
+      face.setFromAttributeAndIndices(position, index.getX(c), index.getX(c + 1), index.getX(c + 2));
+      least = Math.min(least, face.closestPointToPoint(point, nearest).distanceToSquared(point));
+    }
+    return Math.sqrt(least);
   }
 
   get visible() { return this.group.visible; }

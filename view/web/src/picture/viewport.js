@@ -2,36 +2,15 @@
 
 import * as THREE from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
+import {markSprite} from './marks.js';
 import {plane} from './materials.js';
+import {Spots} from './spots.js';
 
 THREE.ColorManagement.enabled = false;  // colours are those of the screen everywhere
 
 const FIELD_OF_VIEW = 26;  // degrees
 const NO_CUT = 1e9;
 export const calm = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
-
-/** A disk with a text, always of one size on the screen. */
-function markSprite(text, color) {
-  const canvas = document.createElement('canvas');
-  canvas.width = canvas.height = 64;
-  const draw = canvas.getContext('2d');
-  draw.beginPath();
-  draw.arc(32, 32, 24, 0, 2 * Math.PI);
-  draw.fillStyle = color;
-  draw.fill();
-  draw.lineWidth = 5;
-  draw.strokeStyle = '#ffffff';
-  draw.stroke();
-  draw.fillStyle = '#ffffff';
-  draw.font = 'bold 28px system-ui, sans-serif';
-  draw.textAlign = 'center';
-  draw.textBaseline = 'middle';
-  draw.fillText(text, 32, 34);
-  const sprite = new THREE.Sprite(new THREE.SpriteMaterial({
-    map: new THREE.CanvasTexture(canvas), sizeAttenuation: false, depthTest: false, transparent: true}));
-  sprite.renderOrder = 100;
-  return sprite;
-}
 
 export class Viewport {
   constructor(canvas, radius) {
@@ -43,7 +22,8 @@ export class Viewport {
     this.scene = new THREE.Scene();
     this.marks = new THREE.Group();
     this.lines = new THREE.Group();
-    this.scene.add(this.marks, this.lines);
+    this.spots = new Spots();
+    this.scene.add(this.marks, this.lines, this.spots.group);
     this.camera = new THREE.PerspectiveCamera(FIELD_OF_VIEW, 1, radius / 1000, radius * 100);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -100,7 +80,7 @@ export class Viewport {
     this.renderer.setViewport(0, 0, size.x, size.y);
     this.renderer.clear();
     const panels = this.panels ?? [null];
-    const shown = [...this.scene.children].map((child) => [child, child.visible]);
+    const shown = this.scene.children.filter((child) => child !== this.spots.group).map((child) => [child, child.visible]);
     panels.forEach((panel, i) => {
       const from = Math.round(size.x * i / panels.length), to = Math.round(size.x * (i + 1) / panels.length);
       if (panel) for (const [child, visible] of shown) child.visible = visible && panel.groups.includes(child);
@@ -123,7 +103,7 @@ export class Viewport {
     this.camera.fov = 2 * Math.atan(aspect < 1 ? half / aspect : half) * 180 / Math.PI;
     this.camera.updateProjectionMatrix();
     const size = this.markSize * half;
-    for (const mark of this.marks.children) mark.scale.setScalar(2 * size * (aspect < 1 ? 1 / aspect : 1));
+    for (const mark of [...this.marks.children, ...this.spots.marks]) mark.scale.setScalar(2 * size * (aspect < 1 ? 1 / aspect : 1));
   }
 
   get homeDistance() { return this.radius / Math.sin(FIELD_OF_VIEW * Math.PI / 360) * 1.02; }
@@ -208,10 +188,22 @@ export class Viewport {
 
   /** Where one looks from, and which way, at a place of the window. */
   ray(x, y) {
+    const box = this.canvas.getBoundingClientRect(), across = (x - box.left) / box.width * (this.panels?.length ?? 1);
+    const at = (depth) => new THREE.Vector3(2 * (across % 1) - 1, 1 - 2 * (y - box.top) / box.height, depth).unproject(this.camera);
+    const from = this.camera.position.clone();
+    return new THREE.Ray(from, at(0.5).sub(from).normalize());
+  }
+
+  /** Of the window. */
+  get middle() {
     const box = this.canvas.getBoundingClientRect();
-    const to = new THREE.Vector3(2 * (x - box.left) / box.width - 1, 1 - 2 * (y - box.top) / box.height, 0.5);
-    const from = this.camera.position;
-    return {origin: from.toArray(), direction: to.unproject(this.camera).sub(from).normalize().toArray()};
+    return [box.left + box.width / 2, box.top + box.height / 2];
+  }
+
+  /** What stands side by side at a place of the window, if anything does. */
+  panelAt(x) {
+    const box = this.canvas.getBoundingClientRect();
+    return this.panels?.[Math.floor((x - box.left) / box.width * this.panels.length)] ?? null;
   }
 
   clearMarks() {
@@ -226,7 +218,7 @@ export class Viewport {
       const at = mark.position.clone().project(this.camera);
       return Math.hypot((at.x + 1) / 2 * box.width + box.left - x, (1 - at.y) / 2 * box.height + box.top - y);
     };
-    return this.marks.children.find((mark) => mark.visible && away(mark) < 14);
+    return this.panels ? null : this.marks.children.find((mark) => mark.visible && away(mark) < 14);
   }
 
   /** Cuts away what is beyond a plane: a direction, and how far it is from the middle; null: nothing. */
