@@ -235,7 +235,8 @@ const tests = {
     const page = await opened('levels.html');
     const base = await picture(page);
     await page.click('#by-click');
-    for (const [x, y] of [[260, 310], [300, 330], [335, 290], [10, 10]]) {
+    for (const [x, y, key] of [[260, 310], [300, 330, 'o'], [335, 290, 'o'], [10, 10]]) {
+      if (key) await page.keyboard.press(key);  // orthographic, and back
       await page.mouse.click(x, y);
       const ray = await text(page, 'ray');
       fs.writeFileSync(at('ray.csv'), `${ray}\n`);
@@ -581,6 +582,41 @@ const tests = {
     assert.equal(after.On, 'b of turns.urdf, collision');
     assert.equal(after.dx, before.dx);
     assert.ok(Math.abs(parseFloat(after.dz) - parseFloat(before.dz) - 0.5) < 1e-5);
+    await closed(page);
+  },
+
+  async 'an orthographic view has a ruler, and keeps lengths'() {
+    const page = await opened('two_boxes.html', {fragment: '#v=0,0,4,0,0,0'});
+    const placeAt = async (x, y) => {
+      await page.mouse.click(x, y);
+      return pointOf((await tableOf(page, '#picked')).Position);
+    };
+    assert.equal(await page.locator('#gauges svg line').count(), 3);
+    assert.ok(await page.isHidden('#ruler'), 'in perspective there is none');
+    const perspective = await picture(page);
+    await page.focus('#canvas');
+    await page.keyboard.press('o');
+    assert.notEqual((await picture(page)).sum, perspective.sum);
+    const parallel = await picture(page), again = await opened('two_boxes.html', {fragment: await fragment(page)});
+    assert.equal((await picture(again)).sum, parallel.sum, 'the address has it');
+    assert.equal(await again.getAttribute('#orthographic', 'aria-pressed'), 'true');
+    await closed(again);
+    const width = await page.evaluate(() => parseFloat(document.getElementById('ruler').style.width));
+    const left = await placeAt(240, 250), right = await placeAt(240 + width, 250);
+    isNear(right.map((x, k) => x - left[k]), [await number(page, 'ruler'), 0, 0]);
+    await page.uncheck('#show-1');
+    const behind = await placeAt(240, 250);
+    isNear(behind, [left[0], -1, left[2]]);
+    await page.mouse.move(240, 250);
+    await page.mouse.wheel(0, -200);
+    await page.waitForTimeout(200);
+    const nearer = await placeAt(240, 250);
+    assert.ok(apart(nearer, behind) > 0 && apart(nearer, behind) < 0.02, 'the wheel zooms to the pointer');
+    const turned = await page.evaluate(() => {
+      prohullView.viewport.look(90, 0);
+      return new Promise(requestAnimationFrame).then(() => prohullView.viewport.axes().map((axis) => axis.map(Math.round)));
+    });
+    assert.deepEqual(turned.map((axis) => axis.map((x) => x + 0)), [[0, 0, 1], [1, 0, 0], [0, 1, 0]], 'from the right, x comes and y goes to the right');
     await closed(page);
   },
 

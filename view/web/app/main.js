@@ -13,7 +13,7 @@ import {commandOf, fillForm, formValues, isOneFile, optionsFor, pieceName, showO
 const MOST_FACES = 7e6;         // of the 4 GB that WebAssembly has, the scene of a hull takes 540 bytes for each face
 const SAMPLES = {bracket: 20000, pony: 100000, knot: 20000, asteroid: 20000, gyroid: 40000, torus: 5000};
 const REST = 300;              // milliseconds after which a level is measured
-const CAMERA = 'vtcads';       // of the address: what of a picture holds for any other part, too
+const CAMERA = 'vtcadsp';       // of the address: what of a picture holds for any other part, too
 const CERTIFIED = /\.(stl|obj|ply|off)(\.gz)?$/i;  // files that prohull_check reads
 
 let part = null;               // {name, bytes, mesh, inspection}, and of a sample what it is called

@@ -2,6 +2,7 @@
 // it, act/ changes what is drawn, and panel/ tells and asks.
 
 import {readFragment, readState, remembered, writeFragment} from './act/address.js';
+import {Gauges} from './act/gauges.js';
 import {listen} from './act/keys.js';
 import {LevelControl} from './act/levels.js';
 import {Look} from './act/look.js';
@@ -37,6 +38,7 @@ export class View {
     this.section = new Section(this);
     this.places = new Places(this);
     this.picks = new Picks(this);
+    this.gauges = new Gauges(this);
     listen(this);
     this.open();
   }
@@ -71,6 +73,7 @@ export class View {
     byId('content').replaceChildren();
     this.panel = new Panel(this);
     this.robots.tell();
+    this.section.cut();
     this.refresh();
   }
 
@@ -90,6 +93,7 @@ export class View {
     this.levels.playing = this.levels.glide = null;
     this.ended.abort();
     this.viewport.end();
+    this.gauges.end();
     byId('content').replaceChildren();
   }
 

@@ -55,6 +55,7 @@ export function readState({hulls, original}, text) {
     active: between(text.n, 0, hulls.length - 1, 0),
     theme: ['dark', 'light'].includes(text.t) ? text.t : null,
     look: numbersOf(text.v, 6),
+    orthographic: text.p === '1',
     time: text.m ? number(text.m) : null,
     joints: text.j ? text.j.split(',').map(Number) : null,
     ray: numbersOf(text.r, 6),
@@ -75,7 +76,7 @@ export function remembered({state, space, viewport, active, hasParts, motion}) {
     d: state.cut === 'v' ? state.cutFacing.map(round).join(',') : null,
     r: state.ray?.join(','),
     j: active.robot?.free.map(({i}) => round(active.robot.positions[i])).join(','),
-    m: motion.time,
+    m: motion.time, p: state.orthographic ? 1 : null,
     x: state.hidden.join(','), n: state.active || null, t: state.theme,
   };
 }

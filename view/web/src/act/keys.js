@@ -11,7 +11,7 @@ function actionOf(view, key, shift) {
     ArrowLeft: arrow(-1, 0), ArrowRight: arrow(1, 0), ArrowUp: arrow(0, 1), ArrowDown: arrow(0, -1),
     '+': () => viewport.zoom(1.15), '=': () => viewport.zoom(1.15), '-': () => viewport.zoom(1 / 1.15),
     0: () => viewport.home(), ',': () => levels.step(-0.02), '.': () => levels.step(0.02), ' ': () => levels.play(),
-    e: toggle('edges'), h: toggle('heat'), p: toggle('png'), f: toggle('fly-far'), n: () => view.places.nextOutside(),
+    e: toggle('edges'), h: toggle('heat'), p: toggle('png'), o: () => view.look.toggleOrthographic(), f: toggle('fly-far'), n: () => view.places.nextOutside(),
     q: () => view.rays.shootThroughMiddle(), c: () => view.picks.pickInMiddle(), m: () => view.picks.pickInMiddle(true),
     Escape: () => view.picks.points.length > 0 ? view.picks.end() : view.rays.end(),
     x: cut('x'), y: cut('y'), z: cut('z'),

@@ -17,6 +17,7 @@ export class Look {
   open() {
     const {state, hasHeat, sides} = this.view;
     this.legend();
+    this.setOrthographic(state.orthographic);
     this.setOpacity(state.opacity);
     this.setEdges(state.edges);
     this.setDefects(state.defects);
@@ -117,6 +118,13 @@ export class Look {
     this.colorEdges();
   }
   toggleTheme() { this.setTheme(this.isDark ? 'light' : 'dark'); }
+
+  setOrthographic(is) {
+    this.view.state.orthographic = is;
+    this.view.viewport.setOrthographic(is);
+    byId('orthographic').setAttribute('aria-pressed', String(is));
+  }
+  toggleOrthographic() { this.setOrthographic(!this.view.state.orthographic); }
 
   async savePicture() {
     const blob = await this.view.viewport.picture();

@@ -378,7 +378,9 @@ export class Panel {
         button('home', 'All', () => view.viewport.home()),
         button('front', 'Front', () => view.viewport.look(0, 0)),
         button('right', 'Right', () => view.viewport.look(90, 0)),
-        button('top', 'Top', () => view.viewport.look(0, 89.9))),
+        button('top', 'Top', () => view.viewport.look(0, 89.9)),
+        el('button', {type: 'button', id: 'orthographic', 'aria-pressed': String(view.state.orthographic),
+          onclick: () => view.look.toggleOrthographic()}, 'Orthographic')),
         el('div', {class: 'row'},
             button('png', 'Save PNG', () => view.look.savePicture()),
             button('theme', 'Dark or light', () => view.look.toggleTheme())));
@@ -389,7 +391,7 @@ export class Panel {
     const keys = [['arrows', 'turn'], ['shift + arrows', 'move'], ['+ −', 'zoom'], ['0', 'see all'], [', .', 'coarser, finer'],
       ['space', 'play'], ['e', 'edges'], ['h', 'distance as colour'], ['x y z', 'section'], ['[ ]', 'move the section'],
       ['f', 'farthest point'], ['n', 'next place outside'], ['c', 'pick in the middle'], ['m', 'second point in the middle'],
-      ['q', 'ray through the middle'], ['Esc', 'end the points or the ray'], ['p', 'save PNG']];
+      ['q', 'ray through the middle'], ['Esc', 'end the points or the ray'], ['o', 'orthographic'], ['p', 'save PNG']];
     const step = view.scene.grid.step;
     return el('section', {},
         el('details', {}, el('summary', {}, 'Keys, mouse and touch'),

@@ -7,6 +7,7 @@ const VERTEX = `
 attribute float heat;
 varying vec3 vPlace;
 varying vec3 vSeen;
+varying vec3 vSight;
 varying float vHeat;
 #ifdef PARTS
 attribute vec3 shift;
@@ -24,6 +25,7 @@ void main() {
   vPlace = (modelMatrix * vec4(place, 1.0)).xyz;
   vec4 seen = viewMatrix * vec4(vPlace, 1.0);
   vSeen = seen.xyz;
+  vSight = projectionMatrix[3][3] == 1.0 ? vec3(0.0, 0.0, 1.0) : vSeen;  // orthographic or not
   gl_Position = projectionMatrix * seen;
 }`;
 
@@ -40,6 +42,7 @@ uniform float opacity;
 uniform bool showsHeat;
 uniform float heatFactor;
 varying vec3 vSeen;
+varying vec3 vSight;
 varying float vHeat;
 #ifdef PARTS
 uniform bool showsParts;
@@ -57,7 +60,7 @@ void main() {
 #endif
   if (!gl_FrontFacing) base = mix(base, vec3(0.25, 0.2, 0.3), 0.45);
   // Like glass: denser where it is seen from the side.
-  float seen = opacity < 1.0 ? opacity * (0.5 + 2.0 * pow(1.0 - abs(normalize(vSeen).z * normal.z), 2.0)) : 1.0;
+  float seen = opacity < 1.0 ? opacity * (0.5 + 2.0 * pow(1.0 - abs(normalize(vSight).z * normal.z), 2.0)) : 1.0;
   gl_FragColor = vec4(base * (showsHeat ? 0.4 + 0.62 * light : light), min(seen, 1.0));
 }`;
 

@@ -35,7 +35,8 @@ export class Viewport {
     this.markSize = 0.03;  // of the shorter side
     this.cut = null;
     this.plane = new THREE.Vector4(0, 0, 0, NO_CUT);  // the materials of all pictures of a page share one
-    this.onChange = () => {};
+    this.onChange = this.onDraw = () => {};
+    this.isOrthographic = false;
     this.home();
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(canvas.parentElement);
@@ -45,7 +46,7 @@ export class Viewport {
 
   /** Gives back what it has of the graphics card; the canvas is of no more use. */
   end() {
-    this.flight = this.onChange = null;
+    this.flight = this.onChange = this.onDraw = null;
     cancelAnimationFrame(this.waiting);
     this.waiting = true;
     this.observer.disconnect();
@@ -91,6 +92,7 @@ export class Viewport {
       this.renderer.render(this.scene, this.camera);
     });
     for (const [child, visible] of shown) child.visible = visible;
+    this.onDraw();
   }
 
   /** Sees as much across the shorter side, whatever the shape of the window; depth is as precise as can be. */
@@ -98,12 +100,36 @@ export class Viewport {
     const far = this.camera.position.length() + 2 * this.radius;
     this.camera.near = Math.max(this.camera.position.length() - 1.05 * this.radius, far / 5000);
     this.camera.far = far;
-    const half = Math.tan(FIELD_OF_VIEW * Math.PI / 360);
+    const half = Math.tan(FIELD_OF_VIEW * Math.PI / 360) / Math.min(1, aspect);
     this.camera.aspect = aspect;
-    this.camera.fov = 2 * Math.atan(aspect < 1 ? half / aspect : half) * 180 / Math.PI;
+    this.camera.fov = 2 * Math.atan(half) * 180 / Math.PI;
     this.camera.updateProjectionMatrix();
-    const size = this.markSize * half;
-    for (const mark of [...this.marks.children, ...this.spots.marks]) mark.scale.setScalar(2 * size * (aspect < 1 ? 1 / aspect : 1));
+    this.halfHeight = half * this.camera.position.distanceTo(this.controls.target);  // at the target
+    if (this.isOrthographic) this.projectParallel(this.halfHeight);
+    const size = 2 * this.markSize * (this.isOrthographic ? this.halfHeight : half);
+    for (const mark of [...this.marks.children, ...this.spots.marks]) mark.scale.setScalar(size);
+  }
+
+  /** Orthographic, from as far away as in perspective: what turns, moves and zooms knows nothing of it. The target has depth 0. */
+  projectParallel(half) {
+    const {camera, controls: {target}} = this, distance = camera.position.distanceTo(target);
+    const wide = half * camera.aspect, reach = target.length() + 2 * this.radius;
+    camera.projectionMatrix.makeOrthographic(-wide, wide, half, -half, distance - reach, distance + reach);
+    camera.projectionMatrixInverse.copy(camera.projectionMatrix).invert();
+  }
+
+  setOrthographic(is) {
+    this.isOrthographic = is;
+    this.changed();
+  }
+
+  /** How long a pixel is, at the target. */
+  get pixel() { return 2 * this.halfHeight / this.canvas.clientHeight; }
+
+  /** The directions of x, y and z on the screen: to the right, up, and towards the viewer. */
+  axes() {
+    const back = this.camera.quaternion.clone().invert();
+    return [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => new THREE.Vector3(...axis).applyQuaternion(back).toArray());
   }
 
   get homeDistance() { return this.radius / Math.sin(FIELD_OF_VIEW * Math.PI / 360) * 1.02; }
@@ -190,7 +216,7 @@ export class Viewport {
   ray(x, y) {
     const box = this.canvas.getBoundingClientRect(), across = (x - box.left) / box.width * (this.panels?.length ?? 1);
     const at = (depth) => new THREE.Vector3(2 * (across % 1) - 1, 1 - 2 * (y - box.top) / box.height, depth).unproject(this.camera);
-    const from = this.camera.position.clone();
+    const from = this.isOrthographic ? at(-1) : this.camera.position.clone();
     return new THREE.Ray(from, at(0.5).sub(from).normalize());
   }
 
