@@ -620,6 +620,20 @@ const tests = {
     await closed(page);
   },
 
+  async 'openings are listed, and a click goes there'() {
+    writeBox('open.obj', 1, [2, 3]);
+    run('view', at('open.obj'), '-o', at('open.html'));
+    const page = await opened('open.html');
+    assert.deepEqual(await page.locator('#openings button').allTextContents(), Array(2).fill('4 edges, 8 togetheropen.obj'));
+    const middles = [];
+    for (const i of [0, 1]) {
+      await page.locator('#openings button').nth(i).click();
+      middles.push(await page.evaluate(() => prohullView.space.point(prohullView.viewport.looking()[3])));
+    }
+    middles.sort((a, b) => a[1] - b[1]).forEach((middle, i) => isNear(middle, [0, 2 * i - 1, 0]));
+    await closed(page);
+  },
+
   async 'keys do what the mouse does'() {
     const page = await opened('levels.html');
     await page.focus('#canvas');

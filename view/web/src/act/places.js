@@ -7,6 +7,9 @@ export class Places {
 
   flyTo(point) { this.view.viewport.fly(this.view.space.at(point)); }
 
+  /** Where a point of a body is. */
+  flyToPointOf(body, point) { this.view.viewport.fly(point.clone().applyMatrix4(body.moved.matrix)); }
+
   get worst() { return this.view.active.verification?.worst ?? []; }
 
   mark() {

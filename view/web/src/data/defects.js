@@ -1,5 +1,8 @@
 // What is wrong with a mesh, to show it.
 
+import * as THREE from 'three';
+import {numbersOfParts} from './parts.js';
+
 /** The ends of all edges along which faces do not run as often one way as the other: a watertight mesh has none. */
 export function openEdges(triangles, vertices) {
   const keys = new Float64Array(triangles.length);
@@ -16,4 +19,17 @@ export function openEdges(triangles, vertices) {
     if (sum !== 0) ends.push(Math.floor(edge / vertices), edge % vertices);
   }
   return Uint32Array.from(ends);
+}
+
+/** Which of these edges hang together: how many, how long they are together, and the middle of their box. The longest come first. */
+export function openings(ends, positions) {
+  const parts = numbersOfParts(ends, positions.length / 3, 2), point = (v) => new THREE.Vector3().fromArray(positions, 3 * v);
+  const found = Array.from({length: parts.count}, () => ({edges: 0, length: 0, box: new THREE.Box3()}));
+  for (let e = 0; e < ends.length; e += 2) {
+    const opening = found[parts.of[ends[e]]], [from, to] = [point(ends[e]), point(ends[e + 1])];
+    ++opening.edges;
+    opening.length += from.distanceTo(to);
+    opening.box.expandByPoint(from).expandByPoint(to);
+  }
+  return found.map(({box, ...facts}) => ({...facts, middle: box.getCenter(new THREE.Vector3())})).sort((a, b) => b.length - a.length);
 }

@@ -11,15 +11,15 @@ export function partColor(i) {
   return round === 0 ? color : color.map((x) => (x + (round === 1 ? 1 : 0)) / 2);
 }
 
-/** The number of the part of each vertex. */
-export function numbersOfParts(triangles, vertices) {
+/** The number of the part of each vertex, by what faces connect, or edges: these have two `corners`. */
+export function numbersOfParts(triangles, vertices, corners = 3) {
   const parents = Uint32Array.from({length: vertices}, (_, v) => v);
   const root = (v) => {
     while (parents[v] !== v) v = parents[v] = parents[parents[v]];
     return v;
   };
-  for (let c = 0; c < triangles.length; c += 3)
-    for (const v of [triangles[c + 1], triangles[c + 2]]) parents[root(v)] = root(triangles[c]);
+  for (let c = 0; c < triangles.length; c += corners)
+    for (let k = 1; k < corners; ++k) parents[root(triangles[c + k])] = root(triangles[c]);
   const numbers = new Map();
   for (const v of triangles) if (!numbers.has(root(v))) numbers.set(root(v), numbers.size);
   return {count: numbers.size, of: Uint32Array.from({length: vertices}, (_, v) => numbers.get(root(v)) ?? 0)};

@@ -6,6 +6,8 @@ import {pickedElements} from './picked.js';
 const FINEST_LEVEL = {
   repaired: 'the repaired input', 'convex-hull': 'the convex hull of the input', wrap: 'a wrap of the input'};
 
+const MOST_OPENINGS = 20;
+
 const withUnit = (text, unit) => unit ? `${text} ${unit}` : text;
 const table = (rows) => el('table', {}, ...rows.filter((row) => row && row[1] !== null).map(
     ([what, ...found]) => el('tr', {}, el('th', {scope: 'row'}, what), el('td', {}, ...found))));
@@ -54,7 +56,7 @@ export class Panel {
     byId('fold').onclick = () => this.fold(byId('fold').getAttribute('aria-expanded') === 'true');
     this.content.append(...[
       this.heading(), this.levelPart(), this.motionPart(), this.jointsPart(), this.collisionsPart(), this.pickedPart(),
-      this.queryPart(), this.shownPart(), this.cutPart(), this.distancePart(), this.outsidePart(), this.factsPart(), this.cameraPart(), this.notePart()].filter(Boolean));
+      this.queryPart(), this.shownPart(), this.cutPart(), this.distancePart(), this.outsidePart(), this.openingsPart(), this.factsPart(), this.cameraPart(), this.notePart()].filter(Boolean));
   }
 
   get object() { return this.view.active; }
@@ -329,6 +331,20 @@ export class Panel {
         el('p', {}, `${counted(v.faces_outside, 'face lies', 'faces lie')} outside, at least in part. ` +
             (v.worst.length < v.faces_outside ? 'The farthest:' : '')),
         el('ol', {class: 'places', id: 'outside'}, ...places));
+  }
+
+  /** Edges along which something is not watertight. */
+  openingsPart() {
+    const {view, unit} = this, all = view.surfaces.flatMap((body) => body.openings.map((opening) => ({body, ...opening})));
+    if (all.length === 0) return null;
+    const places = all.sort((a, b) => b.length - a.length).slice(0, MOST_OPENINGS).map(({body, edges, length, middle}) =>
+        el('li', {}, el('button', {type: 'button', onclick: () => view.places.flyToPointOf(body, middle)},
+            el('span', {}, `${counted(edges, 'edge', 'edges')}, ${withUnit(short(length * view.space.side), unit)} together`,
+                el('span', {class: 'where'}, body.label)))));
+    return el('section', {}, el('h2', {}, 'Not watertight'),
+        el('p', {}, `Edges that are not watertight hang together in ${counted(all.length, 'place', 'places')}.` +
+            (all.length > MOST_OPENINGS ? ' The longest:' : '')),
+        el('ol', {class: 'places', id: 'openings'}, ...places));
   }
 
   factsPart() {

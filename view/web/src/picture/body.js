@@ -1,7 +1,7 @@
 // A mesh in the scene: its surface, its edges, and what caps its section.
 
 import * as THREE from 'three';
-import {openEdges} from '../data/defects.js';
+import {openEdges, openings} from '../data/defects.js';
 import {capMaterial, countingMaterial, defectMaterial, edgeMaterial, explosion, rgb, surfaceMaterial} from './materials.js';
 
 /** Two ends for each edge of each face. */
@@ -160,9 +160,10 @@ export class Body {
     this.defects.visible = is;
   }
   makeDefects() {
-    const geometry = this.sharing(openEdges(this.mesh.triangles, this.mesh.positions.length / 3));
-    return this.add(new THREE.LineSegments(geometry, defectMaterial()), 60);
+    return this.add(new THREE.LineSegments(this.sharing(this.openEdges), defectMaterial()), 60);
   }
+  get openEdges() { return this.found ??= openEdges(this.mesh.triangles, this.mesh.positions.length / 3); }
+  get openings() { return this.closed ? [] : openings(this.openEdges, this.mesh.positions); }
 
   /** Lines between its vertices. */
   sharing(index) {
