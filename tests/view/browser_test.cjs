@@ -634,6 +634,51 @@ const tests = {
     await closed(page);
   },
 
+  async 'marks that a section cuts away are hidden'() {
+    const page = await opened('hull.html'), far = await page.evaluate(() => prohullView.active.distance.farthest);
+    const marks = () => page.evaluate(() => prohullView.viewport.marks.children.map(({visible}) => visible));
+    await page.selectOption('#cut', 'z');
+    const kept = {1: [], '-1': []};
+    for (const at of ['-1', '1', '-1']) {
+      await page.locator('#cut-at').fill(at);
+      await picture(page);
+      kept[at].push(...await marks());
+    }
+    assert.deepEqual(kept, {1: [true], '-1': [false, false]});
+    await page.click('#flip');
+    await picture(page);
+    assert.deepEqual(await marks(), [true], `${far} is on the other side`);
+    await closed(page);
+  },
+
+  async 'marks and texts follow the level while the slider moves'() {
+    const page = await opened('levels.html', {motion: 'no-preference'});
+    const seen = await page.evaluate(async () => {
+      const text = (id) => document.getElementById(id).textContent, {levels, viewport, active} = prohullView, seen = [];
+      levels.setFaces(active.original_faces);
+      while (levels.glide) {
+        const told = Number(/level of ([\d,]+) faces/.exec(text('far'))[1].replaceAll(',', ''));
+        const stop = active.stops.find(({faces}) => faces === told), mark = viewport.marks.children[0];
+        const shown = Number(text('faces').replaceAll(',', ''));
+        seen.push([told <= shown && active.stops.every(({faces}) => faces <= told || faces > shown),
+          stop.upper === 0 ? !mark : mark.userData.point === stop.farthest]);
+        await new Promise(requestAnimationFrame);
+      }
+      return seen;
+    });
+    assert.ok(seen.length > 2);
+    assert.deepEqual(seen.filter((both) => both.includes(false)), []);
+    assert.equal(await page.evaluate(() => prohullView.viewport.marks.children.length), 0, 'the finest level has no farthest point');
+    assert.ok(await page.isDisabled('#fly-far'));
+    await closed(page);
+    run('view', at('pony.phull'), '--original', at('sphere.ply'), '-o', at('other.html'));
+    const other = await opened('other.html', {fragment: '#l=1000'});
+    assert.match(await text(other, 'verdict'), /Does not enclose/);
+    assert.match(await text(other, 'encloses'), /not proven/);  // one level decides nothing about the others
+    assert.match(await text(other, 'content'), /outside of some levels/);
+    await closed(other);
+  },
+
   async 'keys do what the mouse does'() {
     const page = await opened('levels.html');
     await page.focus('#canvas');

@@ -55,6 +55,7 @@ export class LevelControl {
       body.update(levels.faces);
     }
     this.view.panel.showLevel();
+    this.view.places.follow();
     this.view.look.caption();
     this.view.viewport.changed();
     return true;

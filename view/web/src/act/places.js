@@ -16,11 +16,17 @@ export class Places {
     const {viewport, space, rays, panel} = this.view;
     viewport.clearMarks();
     rays.mark();
-    const far = rays.query ? null : panel.farthest();
-    if (far && far.upper > 0) viewport.mark(space.at(far.farthest), '★', FAR).userData.point = far.farthest;
+    this.far = panel.farthest();
+    const {far} = this;
+    if (!rays.query && far?.upper > 0) viewport.mark(space.at(far.farthest), '★', FAR).userData.point = far.farthest;
     this.worst.forEach((o, i) => {
       viewport.mark(space.at(o.point), String(i + 1), OUTSIDE).userData.point = o.point;
     });
+  }
+
+  /** While the level changes. */
+  follow() {
+    if (this.view.panel.farthest() !== this.far) this.mark();
   }
 
   nextOutside() {

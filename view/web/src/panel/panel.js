@@ -118,7 +118,7 @@ export class Panel {
     live.void.textContent = query ? '–' : levels.voids ? percent(levels.voids[levels.shown]) : '–';
     const isStop = stop.faces === levels.shownFaces && !query, bound = isStop ? stop.upper : stop.until_next;
     live.distance.textContent = query ? '–' : bound === undefined ? '…' : withUnit(`≤ ${atMost(bound)}`, this.unit);
-    live.encloses.textContent = v.refused ? '?' : v.encloses ? '✓ yes' : '✗ no';
+    live.encloses.textContent = v.refused ? '?' : v.encloses ? '✓ yes' : '– not proven';
     live.wanted.value = levels.shownFaces;
     live.stops.value = isStop ? String(stop.faces) : '';
     this.showFarthest();
@@ -301,7 +301,7 @@ export class Panel {
     if (!this.farthest()) return null;
     this.live.far = el('p', {id: 'far'});
     this.live.between = el('p', {id: 'between'});
-    const fly = el('button', {type: 'button', id: 'fly-far', onclick: () => this.view.places.flyTo(this.farthest().farthest)},
+    const fly = this.live.flyFar = el('button', {type: 'button', id: 'fly-far', onclick: () => this.view.places.flyTo(this.farthest().farthest)},
         el('span', {class: 'far-mark', 'aria-hidden': 'true'}, '★ '), 'Show the farthest point');
     return el('section', {}, el('h2', {}, this.object.union ? 'Reach out of the original' : 'Distance to the original'), this.live.between, this.live.far, fly);
   }
@@ -316,7 +316,8 @@ export class Panel {
       this.live.between.textContent = `All levels from ${grouped(found.faces)} to ${grouped(next.faces)} faces are within ` +
           `${withUnit(atMost(found.until_next), this.unit)} (proven).`;
     }
-    this.live.far.textContent = `The farthest point${of} is between ${withUnit(short(found.lower), this.unit)} and ` +
+    this.live.flyFar.disabled = found.upper === 0;
+    this.live.far.textContent = found.upper === 0 ? `No point${of} is away from the original.` : `The farthest point${of} is between ${withUnit(short(found.lower), this.unit)} and ` +
         `${withUnit(atMost(found.upper), this.unit)} away (proven), found at ${place(found.farthest)}.`;
   }
 
@@ -328,7 +329,7 @@ export class Panel {
         el('span', {}, `face ${grouped(o.face)}, ${withUnit(short(o.distance), this.unit)} outside`,
             el('span', {class: 'where'}, place(o.point))))));
     return el('section', {}, el('h2', {}, 'Outside'),
-        el('p', {}, `${counted(v.faces_outside, 'face lies', 'faces lie')} outside, at least in part. ` +
+        el('p', {}, `${counted(v.faces_outside, 'face lies', 'faces lie')} outside${this.object.levels ? ' of some levels' : ''}, at least in part. ` +
             (v.worst.length < v.faces_outside ? 'The farthest:' : '')),
         el('ol', {class: 'places', id: 'outside'}, ...places));
   }
@@ -370,7 +371,7 @@ export class Panel {
         ? [!object.levels && v.void_ratio !== null && ['Void', percent(v.void_ratio)],
           v.hull_volume !== null && [object.levels ? 'Volume of the base' : 'Volume, verified', withUnit(short(v.hull_volume, 7), cubic)],
           v.original_volume !== null && ['Volume of the original', withUnit(short(v.original_volume, 7), cubic)],
-          v.self_intersections !== undefined && ['Self-intersections', counted(v.self_intersections ?? 0, 'pair', 'pairs')]]
+          v.self_intersections !== undefined && [object.levels ? 'Self-intersections of the base' : 'Self-intersections', counted(v.self_intersections ?? 0, 'pair', 'pairs')]]
         : [];
     return el('section', {id: 'facts'}, el('h2', {}, 'Numbers'), table([...rows, ...proof]),
         ...(v?.notes ?? []).map((note) => el('p', {class: 'soft'}, note)),

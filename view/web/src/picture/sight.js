@@ -3,6 +3,10 @@
 import * as THREE from 'three';
 
 const caster = new THREE.Raycaster();
+const ON_PLANE = 1e-6;
+
+/** Whether a section, if there is one, cuts a point away. */
+export const isCutAway = (point, cut) => cut !== null && point.clone().sub(cut.point).dot(cut.direction) > ON_PLANE;
 
 /** Where a ray of the scene meets faces of the body, nearest first. */
 export function facesAlong(body, ray) {
@@ -28,7 +32,6 @@ function filling(bodies, ray, cut) {
 
 /** The first face along a ray that no section cuts away; `faceIndex` is null on the filling of a section. */
 export function firstSeen(bodies, ray, cut) {
-  const isKept = ({point}) => !cut || point.clone().sub(cut.point).dot(cut.direction) <= 0;
-  const faces = () => bodies.flatMap((body) => facesAlong(body, ray).filter(isKept).slice(0, 1));
+  const faces = () => bodies.flatMap((body) => facesAlong(body, ray).filter(({point}) => !isCutAway(point, cut)).slice(0, 1));
   return (cut && filling(bodies, ray, cut)) ?? faces().sort((a, b) => a.distance - b.distance)[0] ?? null;
 }

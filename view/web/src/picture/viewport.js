@@ -4,6 +4,7 @@ import * as THREE from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 import {markSprite} from './marks.js';
 import {plane} from './materials.js';
+import {isCutAway} from './sight.js';
 import {Spots} from './spots.js';
 
 THREE.ColorManagement.enabled = false;  // colours are those of the screen everywhere
@@ -77,6 +78,7 @@ export class Viewport {
     const size = this.renderer.getSize(new THREE.Vector2());
     if (size.x === 0 || size.y === 0) return;
     plane.value.copy(this.plane);
+    for (const mark of this.marks.children) mark.visible = !isCutAway(mark.position, this.cut);
     this.renderer.setScissorTest(false);
     this.renderer.setViewport(0, 0, size.x, size.y);
     this.renderer.clear();
@@ -233,6 +235,7 @@ export class Viewport {
   }
 
   clearMarks() {
+    for (const {material} of this.marks.children) material.map.dispose();
     this.marks.clear();
     this.lines.clear();
   }
