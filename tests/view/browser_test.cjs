@@ -671,11 +671,13 @@ const tests = {
     assert.equal(await page.evaluate(() => prohullView.viewport.marks.children.length), 0, 'the finest level has no farthest point');
     assert.ok(await page.isDisabled('#fly-far'));
     await closed(page);
-    run('view', at('pony.phull'), '--original', at('sphere.ply'), '-o', at('other.html'));
+    run('lod', at('pony.phull'), '--faces', '6000', '-o', at('stray.obj'));
+    fs.appendFileSync(at('stray.obj'), '\nv 3 0 0\nv 4 0 0\nv 4 1 0\nf -3 -2 -1\n');
+    run('view', at('pony.phull'), '--original', at('stray.obj'), '-o', at('other.html'));
     const other = await opened('other.html', {fragment: '#l=1000'});
-    assert.match(await text(other, 'verdict'), /Does not enclose/);
+    assert.match(await text(other, 'verdict'), /Does not cover/);
     assert.match(await text(other, 'encloses'), /not proven/);  // one level decides nothing about the others
-    assert.match(await text(other, 'content'), /outside of some levels/);
+    assert.match(await text(other, 'content'), /1 face lies outside of some levels/);
     await closed(other);
   },
 
