@@ -344,7 +344,15 @@ const tests = {
     fs.writeFileSync(at('spheres.yaml'), `collision_spheres: {pony: [${
         [0, 1, 2].map((i) => `{center: [${i}, 0, 0], radius: 0.4}`).join(', ')}]}\n`);
     run('view', '--union', at('spheres.yaml'), '--original', at('sphere.ply'), '-o', at('spheres.html'));
-    for (const [file, parts, verdict] of [['pieces.html', '4 pieces', /^✓Covers/], ['spheres.html', '3 spheres', /^✗Does not cover/]]) {
+    const checkPiece = (told) => {
+      checkPicked(told, meshOf('pieces.obj'));
+      assert.match(told.Piece, /^[0-3]$/);
+    };
+    const checkSphere = (told) => {
+      const [x, y, z] = pointOf(told.Position), away = Math.hypot(x - Number(told.Sphere), y, z);
+      assert.ok(away <= 0.4 + 1e-6 && away > 0.39 && !told.Face, 'it is on the sphere that is told, where that is while together');
+    };
+    for (const [file, parts, verdict, checkPart] of [['pieces.html', '4 pieces', /^✓Covers/, checkPiece], ['spheres.html', '3 spheres', /^✗Does not cover/, checkSphere]]) {
       const page = await opened(file);
       assert.match(await text(page, 'verdict'), verdict);
       assert.ok((await text(page, 'facts')).includes(`Parts${parts}`));
@@ -354,6 +362,13 @@ const tests = {
       assert.notEqual(apart.sum, together.sum);
       await page.uncheck('#parts');
       assert.notEqual((await picture(page)).sum, apart.sum);
+      await page.uncheck('#show-0');
+      await page.focus('#canvas');
+      for (const [x, y] of [[150, 400], [400, 200], [290, 320], [230, 320], [330, 320]]) {
+        await page.mouse.click(x, y);
+        if (await page.isVisible('#end-pick')) break;
+      }
+      checkPart(await tableOf(page, '#picked'));
       await closed(page);
     }
   },
@@ -537,6 +552,11 @@ const tests = {
     assert.deepEqual(await told(), {'Section of': 'around.obj', Position: (await told()).Position, 'To within.obj': (await told())['To within.obj']});
     assert.equal(pointOf((await told()).Position)[1], 0, 'a section is picked in its plane');
     await closed(page);
+    run('view', at('around.obj'), at('within.obj'), '-o', at('two_meshes.html'));
+    const two = await opened('two_meshes.html');
+    await two.mouse.click(290, 320);
+    assert.equal((await tableOf(two, '#picked'))['To within.obj'], '0.25', 'of two meshes, the distance to the other one');
+    await closed(two);
   },
 
   async 'what is picked follows the level'() {

@@ -2,6 +2,7 @@
 
 import * as THREE from 'three';
 import {numbersOfParts} from '../data/parts.js';
+import {byId} from '../panel/dom.js';
 import {facesAlong, firstSeen} from '../picture/sight.js';
 
 /** A point of a body, which moves with it. */
@@ -60,6 +61,7 @@ export class Picks {
     this.points = [...(isSecond ? this.points.slice(0, 1) : []), ...(seen ? [new Pick(seen, ray)] : [])];
     if (this.next === 'second') this.setNext('first');
     this.show();
+    byId('picked').scrollIntoView({block: 'nearest'});
   }
   pickInMiddle(isSecond) { this.pickAt(...this.view.viewport.middle, isSecond); }
 
@@ -93,10 +95,11 @@ export class Picks {
   /** In the unit of the meshes. */
   pointOf(place) { return this.view.space.point(place.toArray()); }
 
-  /** What the distance of a pick is told to: of links the other geometry, of hulls the original, of that the hull. */
+  /** What the distance of a pick is told to: of links the other geometry, of hulls the original, of that the hull; of two meshes the other. */
   partnerOf({body}) {
-    const {bodies, active} = this.view, original = bodies.find(({role}) => role === 'original')?.body;
-    const partner = body.partner ?? (body === original ? active.body : original);
-    return partner?.distanceTo && partner !== body ? partner : null;
+    const {bodies, active, hulls} = this.view, original = bodies.find(({role}) => role === 'original')?.body;
+    const other = original ?? (hulls.length === 2 && hulls.find((hull) => hull.body !== body).body);
+    const partner = body.partner ?? (body === original ? active.body : other);
+    return partner?.distanceTo ? partner : null;
   }
 }

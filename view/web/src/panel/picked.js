@@ -4,17 +4,19 @@ import {counted, el, grouped, short} from './dom.js';
 
 const PARTS = [[/sphere/, 'Sphere'], [/piece/, 'Piece'], [/./, 'Component']];
 
-/** Where the numbers of its faces and corners are from. */
-function sourceOf({body: {source}}, query) {
+/** What its numbers count. */
+function noteOf({face, body: {source, hasParts}}, {state: {explosion}, rays: {query}}) {
+  if (face === null) return null;
   if (source?.levels && query) return 'Numbers count from 0, in the base mesh as the ray has split it.';
   if (!source || source.levels)
-    return `${source ? `On the level of ${grouped(source.levels.shownFaces)} faces. ` : ''}Numbers count from 0 in the order in which ` +
+    return `${source ? `Of the level of ${grouped(source.levels.shownFaces)} faces. ` : ''}Numbers count from 0 in the order in which ` +
         'vertex splits make faces and vertices: files of levels have others.';
   if (source.kind === 'balls') return 'Spheres count from 0. They are drawn with flat faces.';
+  const together = hasParts && explosion > 0 ? ' Positions are those of parts that are together.' : '';
   if (source.left_out > 0)
-    return `Numbers count from 0, without ${counted(source.left_out, 'face that is', 'faces that are')} not finite.`;
-  const corners = source.left_out_vertices > 0 ? 'Those of corners leave out vertices without a face.' : '';
-  return `Numbers count from 0, in the ${source.name ? 'file' : 'geometry of the link'} as prohull reads it. ${corners}`;
+    return `Numbers count from 0, without ${counted(source.left_out, 'face that is', 'faces that are')} not finite.${together}`;
+  const what = source.union ? 'pieces, one after the other,' : source.name ? 'file' : 'geometry of the link';
+  return `Numbers count from 0, in the ${what} as prohull reads it${source.left_out_vertices > 0 ? ', without vertices that no face has' : ''}.${together}`;
 }
 
 /** The rows of a table: of a point and what lies around it. */
@@ -40,9 +42,10 @@ export function pickedElements(picks, table) {
   const rounded = (x) => String(Number(x.toFixed(digits)) + 0), length = (x) => `${short(Number(x.toFixed(digits)), 6)}${unit ? ` ${unit}` : ''}`;
   const words = {place: (point) => `(${point.map(rounded).join(', ')})`, length};
   if (points.length === 0) return [el('p', {class: 'soft'}, HINT)];
-  const told = points.flatMap((pick, i) => [
-    el('h3', {}, el('span', {class: 'mark'}, 'AB'[i]), ` ${i === 0 ? 'First' : 'Second'} point`), table(rowsOf(pick, picks, words)),
-    el('p', {class: 'soft'}, sourceOf(pick, view.rays.query))]);
+  const notes = new Set(points.map((pick) => noteOf(pick, view)).filter(Boolean));
+  const told = [...points.flatMap((pick, i) => [
+    el('h3', {}, el('span', {class: 'mark'}, 'AB'[i]), ` ${i === 0 ? 'First' : 'Second'} point`), table(rowsOf(pick, picks, words))]),
+    ...[...notes].map((note) => el('p', {class: 'soft'}, note))];
   if (points.length === 1) return told;
   const [a, b] = points.map((pick) => picks.pointOf(pick.place)), way = b.map((x, k) => x - a[k]);
   return [el('p', {id: 'measured'}, 'From A to B: ', el('b', {id: 'measured-distance'}, length(Math.hypot(...way)))),
