@@ -701,6 +701,23 @@ const tests = {
     await closed(other);
   },
 
+  async 'the picture of docs/guides/view.md'() {
+    const file = process.env.PROHULL_PICTURE;  // where it goes, if it is to be made
+    if (!file) return;
+    fs.mkdirSync(at('docs'));
+    run('sample', 'pony', '-o', at('docs/pony.ply'));
+    run('build', at('docs/pony.ply'), '--faces', '600', '-o', at('docs/hull.stl'), '--hierarchy', at('docs/pony.phull'));
+    run('view', at('docs/pony.phull'), '-o', at('docs/levels.html'));
+    const page = await opened('docs/levels.html', {width: 1100, height: 720, fragment: '#l=900&p=1'});
+    await page.mouse.click(250, 300);
+    await page.click('#second');
+    await page.mouse.click(565, 305);
+    await page.mouse.move(20, 20);
+    await page.waitForTimeout(1000);
+    await page.screenshot({path: file});
+    await closed(page);
+  },
+
   async 'keys do what the mouse does'() {
     const page = await opened('levels.html');
     await page.focus('#canvas');

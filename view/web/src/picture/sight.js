@@ -3,7 +3,7 @@
 import * as THREE from 'three';
 
 const caster = new THREE.Raycaster();
-const ON_PLANE = 1e-6;
+const ON_PLANE = 1e-5;  // the longest side of a scene has length 1
 
 /** Whether a section, if there is one, cuts a point away. */
 export const isCutAway = (point, cut) => cut !== null && point.clone().sub(cut.point).dot(cut.direction) > ON_PLANE;

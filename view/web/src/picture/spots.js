@@ -3,14 +3,14 @@
 import * as THREE from 'three';
 import {markSprite} from './marks.js';
 
-const COLOR = '#0b62a8';
+const COLOR = '#0b62a8', FACE = '#d6006c';
 
 export class Spots {
   constructor() {
     this.marks = ['A', 'B'].map((name) => markSprite(name, COLOR));
     const how = {color: COLOR, depthTest: false, transparent: true};
     this.way = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial(how));
-    this.faces = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({...how, opacity: 0.4, side: THREE.DoubleSide}));
+    this.faces = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({...how, color: FACE, opacity: 0.5, side: THREE.DoubleSide}));
     for (const object of [this.faces, this.way]) Object.assign(object, {renderOrder: 95, frustumCulled: false});
     this.group = new THREE.Group().add(...this.marks, this.faces, this.way);
     this.show([], []);
