@@ -5,7 +5,7 @@ import {byId, el, short, svg} from '../panel/dom.js';
 const LENGTH = 24, LONGEST = 96;  // pixels, of the axes and of the ruler
 
 /** The greatest of 1, 2, 5, 10, 20 and so on that is not greater. */
-export function roundLength(most) {
+function roundLength(most) {
   const power = 10 ** Math.floor(Math.log10(most));
   return power * ([5, 2].find((times) => times * power <= most) ?? 1);
 }

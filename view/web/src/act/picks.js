@@ -1,7 +1,6 @@
 // Points that are picked on what is drawn, and the way from the first to the second.
 
 import * as THREE from 'three';
-import {numbersOfParts} from '../data/parts.js';
 import {byId} from '../panel/dom.js';
 import {facesAlong, firstSeen} from '../picture/sight.js';
 
@@ -31,7 +30,10 @@ class Pick {
     return this.corners.reduce((best, v) => away(v) < away(best) ? v : best);
   }
   /** The number of its piece, sphere or component. */
-  get part() { return numbersOfParts(this.body.mesh.triangles, this.body.mesh.positions.length / 3).of[this.corners[0]]; }
+  get part() {
+    const {mesh, source} = this.body;
+    return source.kind === 'balls' ? Math.floor(3 * this.face * source.radii.count / mesh.triangles.length) : mesh.parts[this.corners[0]];
+  }
 
   /** What the same line of sight meets nearest to it, after faces have changed; false if it meets nothing. */
   follow() {

@@ -25,7 +25,7 @@ export function numbersOfParts(triangles, vertices, corners = 3) {
   return {count: numbers.size, of: Uint32Array.from({length: vertices}, (_, v) => numbers.get(root(v)) ?? 0)};
 }
 
-/** For each vertex its colour, and how it moves when the parts go apart; null if there is one part only, or too many. */
+/** For each vertex its part, its colour, and how it moves when the parts go apart; null if there is one part only, or too many. */
 export function partsOf({positions, triangles}) {
   const vertices = positions.length / 3, parts = numbersOfParts(triangles, vertices);
   if (parts.count < 2 || parts.count > MOST) return null;
@@ -43,5 +43,5 @@ export function partsOf({positions, triangles}) {
     shifts[i] = (boxes[part].least[k] + boxes[part].most[k]) / 2 - middle[k];
     tints[i] = colors[part][k];
   }
-  return {count: parts.count, shifts, tints};
+  return {parts: parts.of, shifts, tints};
 }

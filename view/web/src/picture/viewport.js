@@ -218,6 +218,7 @@ export class Viewport {
   ray(x, y) {
     const box = this.canvas.getBoundingClientRect(), across = (x - box.left) / box.width * (this.panels?.length ?? 1);
     const at = (depth) => new THREE.Vector3(2 * (across % 1) - 1, 1 - 2 * (y - box.top) / box.height, depth).unproject(this.camera);
+    this.camera.updateMatrixWorld();
     const from = this.isOrthographic ? at(-1) : this.camera.position.clone();
     return new THREE.Ray(from, at(0.5).sub(from).normalize());
   }
