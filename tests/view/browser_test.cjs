@@ -793,6 +793,9 @@ const tests = {
     assert.notEqual((await picture(page)).sum, marked.sum, 'open edges are marked');
     assert.match(await text(page, 'facts'), /open edges/);
     assert.match(await text(page, 'facts'), /Not finite, left out1 face/);
+    await page.mouse.click(290, 320);
+    assert.match(await text(page, 'picked'), /Numbers count from 0, without 1 face that is not finite/);
+    await page.keyboard.press('Escape');
     assert.ok((await picture(page)).colors > 50);
     run('view', at('broken.obj'), '--original', at('sphere.ply'), '-o', at('refused.html'));
     const refused = await opened('refused.html');
