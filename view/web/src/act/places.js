@@ -18,7 +18,7 @@ export class Places {
     rays.mark();
     this.far = panel.farthest();
     const {far} = this;
-    if (!rays.query && far?.upper > 0) viewport.mark(space.at(far.farthest), '★', FAR).userData.point = far.farthest;
+    if (!rays.query && far?.lower > 0) viewport.mark(space.at(far.farthest), '★', FAR).userData.point = far.farthest;
     this.worst.forEach((o, i) => {
       viewport.mark(space.at(o.point), String(i + 1), OUTSIDE).userData.point = o.point;
     });

@@ -316,9 +316,10 @@ export class Panel {
       this.live.between.textContent = `All levels from ${grouped(found.faces)} to ${grouped(next.faces)} faces are within ` +
           `${withUnit(atMost(found.until_next), this.unit)} (proven).`;
     }
-    this.live.flyFar.disabled = found.upper === 0;
-    this.live.far.textContent = found.upper === 0 ? `No point${of} is away from the original.` : `The farthest point${of} is between ${withUnit(short(found.lower), this.unit)} and ` +
-        `${withUnit(atMost(found.upper), this.unit)} away (proven), found at ${place(found.farthest)}.`;
+    this.live.flyFar.disabled = found.lower === 0;
+    const most = `${withUnit(atMost(found.upper), this.unit)} away`;
+    this.live.far.textContent = found.lower === 0 ? `No point${of} is more than ${most} (proven).` :
+      `The farthest point${of} is between ${withUnit(atLeast(found.lower), this.unit)} and ${most} (proven), found at ${place(found.farthest)}.`;
   }
 
   outsidePart() {
