@@ -128,30 +128,13 @@ std::optional<ClosestPoint> distance_to(FaceId face, const Triangle& triangle, c
   return ClosestPoint{face, corner(triangle, foot.from) + m.from_corner, m.distance, m.lower, m.upper};
 }
 
-ClosestCollector::ClosestCollector(const TriangleMesh& mesh, const Box& box, const Vec3& point, double max_distance)
-    : mesh_(mesh), point_(point), limit_(max_distance) {
-  // Rounding moves dot(n, point - corner), |n| <= 1 + 4 eps, by at most 8 eps |point - corner| (1 + O(eps)).
-  const double reach = std::max(largest_entry(box.min - point), largest_entry(box.max - point));
-  error_ = 16 * line_filter::kEpsilon * reach + 0x1p-1000;
-}
-
-/// All corners lie beyond a plane that is farther away than limit().
-bool ClosestCollector::is_certainly_farther(const Triangle& t) const {
-  return std::min({dot(away_, point_ - t.a), dot(away_, point_ - t.b), dot(away_, point_ - t.c)}) - error_ >
-         limit_ * (1 + 8 * line_filter::kEpsilon);
-}
-
 void ClosestCollector::offer(FaceId face, const Triangle& triangle) {
-  if (is_certainly_farther(triangle)) return;
   const auto found = distance_to(face, triangle, point_, limit_);
   if (!found) return;
   lower_ = std::min(lower_, found->lower);
   if (found->upper > limit_ || (best_ && found->upper == limit_ && best_->face < face)) return;
   best_ = found;
   limit_ = found->upper;
-  away_ = point_ - found->position;
-  const double length = norm(away_);
-  away_ = length > 0x1p-500 && length < 0x1p500 ? away_ / length : Vec3{};
 }
 
 void ClosestCollector::offer_all() {

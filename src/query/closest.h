@@ -15,8 +15,8 @@ std::optional<ClosestPoint> distance_to(FaceId face, const Triangle& triangle, c
 /// change that; only the lower bound, which is the least of all faces that are not certainly farther, may be another.
 class ClosestCollector {
  public:
-  /// Requires the mesh to lie in the box.
-  ClosestCollector(const TriangleMesh& mesh, const Box& box, const Vec3& point, double max_distance);
+  ClosestCollector(const TriangleMesh& mesh, const Vec3& point, double max_distance)
+      : mesh_(mesh), point_(point), limit_(max_distance) {}
 
   /// `triangle` is that of the face.
   void offer(FaceId face, const Triangle& triangle);
@@ -28,13 +28,9 @@ class ClosestCollector {
   std::optional<ClosestPoint> best() const;
 
  private:
-  bool is_certainly_farther(const Triangle& t) const;
-
   const TriangleMesh& mesh_;
   Vec3 point_;
   double limit_;
-  double error_;  ///< of dot(away_, point - corner)
-  Vec3 away_;     ///< from the closest point so far to the point; of length 1 but for rounding, or 0
   double lower_ = std::numeric_limits<double>::infinity();
   std::optional<ClosestPoint> best_;
 };

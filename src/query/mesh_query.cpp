@@ -244,8 +244,7 @@ bool MeshQuery::contains(const Vec3& point) {
 
 std::optional<ClosestPoint> MeshQuery::closest_point(const Vec3& point, double max_distance) {
   require_distance(max_distance);
-  const QueryIndex::Shared& shared = *state_->index.shared_;
-  ClosestCollector closest(shared.mesh, shared.box(), point, max_distance);
+  ClosestCollector closest(state_->index.shared_->mesh, point, max_distance);
   state_->worker->collect(closest);
   return closest.best();
 }

@@ -68,13 +68,12 @@ void expect_hits_of_brute_force(const TriangleMesh& mesh, const std::vector<Segm
 void expect_closest_of_brute_force(const TriangleMesh& mesh, const std::vector<Segment>& segments) {
   const WideBvh tree(mesh);
   MeshQuery brute{QueryIndex(mesh, Engine::Brute)};
-  const Box box = bounding_box(mesh);
   for (const Segment& s : segments)
-    for (const Vec3& p : {s.a, s.b, s.a * 0.5 + s.b * 0.5, s.b + (s.b - s.a) * 1e8}) {
+    for (const Vec3& p : {s.a, s.b, s.a * 0.5 + s.b * 0.5, s.b + (s.b - s.a) * 1e8, s.b + (s.b - s.a) * 1e200}) {
       const auto truth = brute.closest_point(p);
       std::optional<double> lower;
       for (const WideTrace& by : wide_traces()) {
-        ClosestCollector closest(mesh, box, p, std::numeric_limits<double>::infinity());
+        ClosestCollector closest(mesh, p, std::numeric_limits<double>::infinity());
         by.trace_nearest(tree, closest);
         const auto best = closest.best();
         ASSERT_TRUE(best) << by.instructions;
