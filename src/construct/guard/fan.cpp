@@ -8,13 +8,9 @@
 namespace prohull {
 namespace {
 
-Vec3Pair magnitudes(const Vec3Pair& a) { return {abs(a.x), abs(a.y), abs(a.z)}; }
 Vec3 magnitudes(const Vec3& a) { return {std::abs(a.x), std::abs(a.y), std::abs(a.z)}; }
 
 /// The cross product, all terms of it added.
-Vec3Pair minors_of(const Vec3Pair& a, const Vec3Pair& b) {
-  return {a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x};
-}
 Vec3 minors_of(const Vec3& a, const Vec3& b) {
   return {a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x};
 }
@@ -31,20 +27,23 @@ void Fan::set(const HalfEdgeMesh& mesh, const std::vector<VertexId>& link, const
   ids_.assign((count_ + 3) / 4, {Truth4{-1, -1, -1, -1}});  // kNoVertex
   for (std::size_t i = 0; i < count_; ++i) ids_[i / 4].four[i % 4] = static_cast<std::int32_t>(index(link[i]));
   apex_ = apex;
-  vertices_.clear(), faces_.clear();
+  vertices_.clear(), normals_.clear();
   box_ = {};
   box_.extend(apex);
   const std::size_t n = link.size();
   const auto vertex = [&](std::size_t i) -> const Vec3& { return i < n ? mesh.position(link[i]) : apex; };
   for (std::size_t i = 0; i <= n; i += 2) vertices_.push_back(both(vertex(i), vertex(i + 1)));
   for (std::size_t i = 0; i < n; ++i) box_.extend(vertex(i));
-  is_moderate_ = sum(box_.max - box_.min) < kReach;
+  const Vec3 extent = box_.max - box_.min;
+  is_moderate_ = sum(extent) < kReach;
+  size_ = std::max({extent.x, extent.y, extent.z});
+  per_size_ = 1 / size_;
   Vec3 normal;
   const auto around = [&](std::size_t i) -> const Vec3& { return vertex(i < n ? i : i - n); };
   for (std::size_t i = 0; i < n; i += 2) {
-    const Vec3Pair a = both(around(i), around(i + 1)) - both(apex), b = both(around(i + 1), around(i + 2)) - both(apex);
-    faces_.push_back({cross(a, b), minors_of(magnitudes(a), magnitudes(b))});
-    normal += faces_.back().normal[0] + faces_.back().normal[1];
+    normals_.push_back(
+        cross(both(around(i), around(i + 1)) - both(apex), both(around(i + 1), around(i + 2)) - both(apex)));
+    normal += normals_.back()[0] + normals_.back()[1];
   }
   const Vec3 size = magnitudes(normal);
   const int axis = size.z >= size.x && size.z >= size.y ? 2 : size.y >= size.x ? 1 : 0;
@@ -55,11 +54,10 @@ void Fan::set(const HalfEdgeMesh& mesh, const std::vector<VertexId>& link, const
 // If, seen along the axis, all faces turn the same way around the apex, and the link once, the fan is the graph of a
 // function over the plane across.
 bool Fan::see_along(int axis) {
-  const auto turn = [&](const TwoFaces& two, Double2 sign) { return sign * along(two.normal, axis); };
+  const Double2 bound = both(kBound * 2 * size_ * size_ + kTiny);
   const auto all_turn = [&](double sign) {
-    return std::ranges::all_of(faces_, [&](const TwoFaces& two) {
-      return mask(turn(two, both(sign)) > kBound * along(two.minors, axis) + kTiny) == 3;
-    });
+    return std::ranges::all_of(normals_,
+                               [&](const Vec3Pair& normal) { return mask(sign * along(normal, axis) > bound) == 3; });
   };
   u_ = axis == 2 ? 0 : axis + 1, v_ = axis == 0 ? 2 : axis - 1;
   if (!all_turn(1)) {
@@ -77,19 +75,19 @@ bool Fan::see_along(int axis) {
 void Fan::set_walls(const HalfEdgeMesh& mesh, const std::vector<VertexId>& link) {
   ++time_;
   known_.resize(mesh.positions().size());
-  const auto vertex = [&](std::size_t i) -> const Vec3& { return mesh.position(link[i < count_ ? i : i - count_]); };
-  walls_.clear(), within_.clear();
-  for (std::size_t i = 0; i < count_; i += 2) {
-    const std::size_t j = i + 1 < count_ ? i + 1 : i;
-    const Double2 u{vertex(i)[u_], vertex(j)[u_]}, v{vertex(i)[v_], vertex(j)[v_]};
-    walls_.push_back(
-        {u, v, Double2{vertex(i + 1)[u_], vertex(j + 1)[u_]} - u, Double2{vertex(i + 1)[v_], vertex(j + 1)[v_]} - v});
-  }
+  walls_.assign((count_ + 3) / 4, {});
+  for (std::size_t i = 0; i < count_; ++i)
+    add_wall(i, mesh.position(link[i]), mesh.position(link[i + 1 < count_ ? i + 1 : 0]));
+  within_.clear();
   for (std::size_t i = 0; i < count_; ++i) {
-    const auto [inside, outside] = sides(vertex(i));
     const std::uint64_t end_of = std::uint64_t{1} << i | previous(std::uint64_t{1} << i);
-    within_.push_back(inside | end_of);
-    known_[link[i]] = {outside | end_of, time_};
+    std::uint64_t inside = end_of, outside = end_of;
+    see_walls(mesh.position(link[i]), [&](std::size_t four, Float4 depth, Float4 bound) {
+      inside |= std::uint64_t{mask(depth > bound)} << 4 * four;
+      outside |= std::uint64_t{mask(depth < -bound)} << 4 * four;
+    });
+    within_.push_back(inside);
+    known_[link[i]] = {outside, time_};
   }
   // The apex is within any wall.
   const std::uint64_t first = within_.front();
@@ -97,23 +95,31 @@ void Fan::set_walls(const HalfEdgeMesh& mesh, const std::vector<VertexId>& link)
   for (std::size_t i = 0; i < count_; ++i) all_within_ &= within_[i] &= i + 1 < count_ ? within_[i + 1] : first;
 }
 
-Fan::Sides Fan::sides(const Vec3& p) const {
-  Sides sides;
-  for (std::size_t i = 0; i < walls_.size(); ++i) {
-    const auto& [u, v, du, dv] = walls_[i];
-    const Double2 left = du * (p[v_] - v), right = dv * (p[u_] - u);
-    const Double2 depth = left - right, bound = kBound * (abs(left) + abs(right)) + kTiny;
-    sides.inside |= std::uint64_t{mask(depth > bound)} << 2 * i;
-    sides.outside |= std::uint64_t{mask(depth < -bound)} << 2 * i;
-  }
-  return {sides.inside & all_faces(), sides.outside & all_faces()};
+void Fan::add_wall(std::size_t i, const Vec3& from, const Vec3& to) {
+  const double u = (from[u_] - apex_[u_]) * per_size_, v = (from[v_] - apex_[v_]) * per_size_,
+               du = (to[u_] - from[u_]) * per_size_, dv = (to[v_] - from[v_]) * per_size_;
+  FourWalls& four = walls_[i / 4];
+  four.du[i % 4] = static_cast<float>(du), four.dv[i % 4] = static_cast<float>(dv);
+  four.offset[i % 4] = static_cast<float>(du * v - dv * u);
+  four.error[i % 4] = kFloatBound * static_cast<float>(std::abs(du) + std::abs(dv)) + kFloatTiny;
 }
 
-/// The walls of which a vertex is strictly outside, or an end.
-std::uint64_t Fan::outside(const HalfEdgeMesh& mesh, VertexId v) {
-  Known& known = known_[v];
-  if (known.time != time_) known = {sides(mesh.position(v)).outside, time_};
-  return known.outside;
+// How far a point is within four walls, times their lengths, and what that may be off by.
+void Fan::see_walls(const Vec3& p, auto&& see) const {
+  const auto u = static_cast<float>((p[u_] - apex_[u_]) * per_size_),
+             v = static_cast<float>((p[v_] - apex_[v_]) * per_size_), reach = 1 + std::max(std::abs(u), std::abs(v));
+  for (std::size_t four = 0; four < walls_.size(); ++four) {
+    const FourWalls& walls = walls_[four];
+    see(four, walls.du * v - walls.dv * u - walls.offset, walls.error * reach);
+  }
+}
+
+std::uint64_t Fan::seen_outside(const Vec3& p) const {
+  std::uint64_t outside = 0;
+  see_walls(p, [&](std::size_t four, Float4 depth, Float4 bound) {
+    outside |= std::uint64_t{mask(depth < -bound)} << 4 * four;
+  });
+  return outside;
 }
 
 /// The places of a vertex in the link: one or none.
@@ -125,16 +131,13 @@ std::uint64_t Fan::places(VertexId v) const {
   return places;
 }
 
-std::uint64_t Fan::perhaps_met(const HalfEdgeMesh& mesh, const std::array<VertexId, 3>& corners) {
+std::uint64_t Fan::perhaps_met(const HalfEdgeMesh& mesh, const std::array<VertexId, 3>& corners,
+                               std::uint64_t walls) const {
   const auto& [a, b, c] = corners;
   std::uint64_t met = all_faces();
-  if (is_embedded_) {
-    const std::uint64_t walls = outside(mesh, a) & outside(mesh, b) & outside(mesh, c);
-    if ((walls & all_within_) != 0) return 0;
-    for (std::size_t i = 0; walls != 0 && i < count_; ++i)
-      if ((walls & within_[i]) != 0) met &= ~(std::uint64_t{1} << i);
-    if (met == 0) return 0;
-  }
+  for (std::size_t i = 0; walls != 0 && i < count_; ++i)
+    if ((walls & within_[i]) != 0) met &= ~(std::uint64_t{1} << i);
+  if (met == 0) return 0;
   const Triangle t{mesh.position(a), mesh.position(b), mesh.position(c)};
   const Vec3 extent = magnitudes(t.b - t.a) + magnitudes(t.c - t.a) + magnitudes(box_.max - t.a);
   if (!is_moderate_ || !(sum(extent) < kReach)) return all_faces();
@@ -165,11 +168,12 @@ std::uint64_t Fan::faces_beside(const Triangle& t, const std::array<std::uint64_
   const std::array<Vec3, 3> corners{t.a - apex_, t.b - apex_, t.c - apex_};
   std::array<std::uint64_t, 2> sides{~std::uint64_t{0}, ~std::uint64_t{0}};
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3Pair p = both(corners[k]), size = both(magnitudes(corners[k]));
+    const Vec3Pair p = both(corners[k]);
+    const Double2 bound = both(kBound * 2 * size_ * size_ * sum(magnitudes(corners[k])) + kTiny);
     const std::uint64_t sharing = at_corner[k] | previous(at_corner[k]);
     std::uint64_t above = sharing, below = sharing;
-    for (std::size_t i = 0; i < faces_.size(); ++i) {
-      const Double2 height = dot(faces_[i].normal, p), bound = kBound * dot(faces_[i].minors, size) + kTiny;
+    for (std::size_t i = 0; i < normals_.size(); ++i) {
+      const Double2 height = dot(normals_[i], p);
       above |= std::uint64_t{mask(height > bound)} << 2 * i;
       below |= std::uint64_t{mask(height < -bound)} << 2 * i;
     }

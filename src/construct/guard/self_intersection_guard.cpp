@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <span>
 #include <utility>
 
@@ -10,6 +11,22 @@
 
 namespace prohull {
 namespace {
+
+/// The lanes whose bits are set in a mask of four, the first ones.
+struct SetLanes {
+  Truth4 lanes{};
+  std::uint32_t count = 0;
+};
+constexpr std::array<SetLanes, 16> kSetLanes = [] {
+  std::array<SetLanes, 16> all;
+  for (unsigned mask = 0; mask < all.size(); ++mask) {
+    std::array<std::int32_t, 4> lanes{};
+    for (int lane = 0; lane < 4; ++lane)
+      if ((mask >> lane & 1) != 0) lanes[all[mask].count++] = lane;
+    all[mask].lanes = Truth4{lanes[0], lanes[1], lanes[2], lanes[3]};
+  }
+  return all;
+}();
 
 Triangle triangle(const HalfEdgeMesh& mesh, const std::array<VertexId, 3>& corners) {
   return {mesh.position(corners[0]), mesh.position(corners[1]), mesh.position(corners[2])};
@@ -91,11 +108,11 @@ std::size_t SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, const F
     std::size_t children = 0;
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t i = nodes_[k];
-      const unsigned met = levels_[level][i].overlapping(boxes);
-      for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
-        children_[children] = kWidth * i + lane;
-        children += met >> lane & 1;
-      }
+      const SetLanes& met = kSetLanes[levels_[level][i].overlapping(boxes)];
+      const auto first = static_cast<std::int32_t>(kWidth * i);
+      const Truth4 all = met.lanes + Truth4{first, first, first, first};
+      std::memcpy(&children_[children], &all, sizeof all);
+      children += met.count;
     }
     std::swap(nodes_, children_);
     count = children;
