@@ -195,6 +195,34 @@ TEST(Fan, IsCertainWhereverThereIsNoDoubt) {
   }
 }
 
+// Triangles upright on the middle of an edge of the link, and inside of its wall by a part of it that float32 hardly
+// tells.
+TEST(Fan, LeavesTrianglesToTheExactTestThatReachInByLittle) {
+  Random random;
+  std::uniform_real_distribution<double> turn(0, 2 * std::numbers::pi);
+  const std::vector<VertexId> link{VertexId{0}, VertexId{1}, VertexId{2}, VertexId{3}, VertexId{4}};
+  std::size_t met = 0;
+  for (int round = 0; round < rounds(1000); ++round) {
+    std::vector<Vec3> positions;
+    for (const double first = turn(random.engine); positions.size() < link.size();) {
+      const double angle = first + 2 * std::numbers::pi / 5 * static_cast<double>(positions.size());
+      positions.push_back({std::cos(angle), std::sin(angle), 0});
+    }
+    const Vec3 apex{0.2, 0.1, 0.3}, middle = (positions[0] + positions[1]) * 0.5,
+                                    corner = middle * (1 - std::exp2(-20.0 - static_cast<double>(random.below(20))));
+    positions.insert(positions.end(), {corner - Vec3{0, 0, 1}, corner + Vec3{0, 0, 1}, middle * 3});
+    const HalfEdgeMesh mesh(PerVertex<Vec3>(positions), {});
+    Fan fan;
+    fan.set(mesh, link, apex);
+    ASSERT_TRUE(fan.is_certainly_embedded());
+    const Corners corners{VertexId{5}, VertexId{6}, VertexId{7}};
+    if (!triangles_intersect({apex, positions[0], positions[1]}, triangle(mesh, corners))) continue;
+    ++met;
+    ASSERT_EQ(fan.perhaps_met(mesh, corners) & 1, 1u) << round;
+  }
+  EXPECT_GT(met, std::size_t(rounds(900)));
+}
+
 TEST(Fan, IsNotEmbeddedIfTheLinkTurnsTwice) {
   std::vector<Vec3> positions;
   std::vector<VertexId> link;
