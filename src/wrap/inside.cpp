@@ -52,36 +52,51 @@ std::vector<std::uint8_t> crossed_edges(const Grid& grid, const TriangleMesh& tr
 
 constexpr char kClosed = 0, kReached = 1, kOpen = 2;
 
-/// Open nodes that are connected to the border through open ones become reached: a whole run along the first axis at
-/// once.
-void reach_from_border(const Grid& grid, std::vector<char>& nodes) {
-  struct Run {
-    std::uint32_t first, last;
-  };
-  std::vector<Run> front;
+/// Nodes next to each other along the first axis.
+struct Run {
+  std::uint32_t first, last;
+};
+
+/// use(from, to) for the neighbours of a run in each of the rows beside it.
+template <class Use>
+void beside(const Grid& grid, const Run& run, Use&& use) {
   const std::size_t row = grid.nodes(0), layer = row * grid.nodes(1);
+  const std::size_t y = run.first / row % grid.nodes(1), z = run.first / layer;
+  const bool is_first = run.first % row == 0, is_last = run.last % row + 1 == row;
+  for (std::size_t step = 1; step < 4; ++step) {  // the rows that a tetrahedron may have in common with this one
+    const std::size_t up = step & 1, far = step >> 1, length = up * row + far * layer;
+    if (y + up < grid.nodes(1) && z + far < grid.nodes(2)) use(run.first + length, run.last + length + !is_last);
+    if (y >= up && z >= far) use(run.first - length - !is_first, run.last - length);
+  }
+}
+
+/// The longest run around a node of those like it.
+template <class IsLike>
+Run run_around(const Grid& grid, std::size_t node, IsLike is_like) {
+  const std::size_t row = grid.nodes(0), start = node - node % row;
+  std::size_t first = node, last = node;
+  while (first > start && is_like(first - 1)) --first;
+  while (last + 1 < start + row && is_like(last + 1)) ++last;
+  return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last)};
+}
+
+/// Open nodes that are connected to the border through open ones become reached: a whole run at once.
+void reach_from_border(const Grid& grid, std::vector<char>& nodes) {
+  std::vector<Run> front;
   const auto reach_all = [&](std::size_t from, std::size_t to) {  // of one row
-    const std::size_t start = from - from % row;
     for (std::size_t n = from; n <= to; ++n) {
       if (nodes[n] != kOpen) continue;
-      std::size_t first = n;
-      while (first > start && nodes[first - 1] == kOpen) --first;
-      while (n + 1 < start + row && nodes[n + 1] == kOpen) ++n;
-      std::fill(&nodes[first], &nodes[n] + 1, kReached);
-      front.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(n)});
+      const Run run = run_around(grid, n, [&](std::size_t m) { return nodes[m] == kOpen; });
+      std::fill(&nodes[run.first], &nodes[run.last] + 1, kReached);
+      front.push_back(run);
+      n = run.last;
     }
   };
   grid.along_border([&](std::size_t n) { reach_all(n, n); });
   while (!front.empty()) {
-    const auto [first, last] = front.back();
+    const Run run = front.back();
     front.pop_back();
-    const std::size_t y = first / row % grid.nodes(1), z = first / layer;
-    const bool is_first = first % row == 0, is_last = last % row + 1 == row;
-    for (std::size_t step = 1; step < 4; ++step) {  // the rows that a tetrahedron may have in common with this one
-      const std::size_t up = step & 1, far = step >> 1, length = up * row + far * layer;
-      if (y + up < grid.nodes(1) && z + far < grid.nodes(2)) reach_all(first + length, last + length + !is_last);
-      if (y >= up && z >= far) reach_all(first - length - !is_first, last - length);
-    }
+    beside(grid, run, reach_all);
   }
 }
 
@@ -146,27 +161,41 @@ struct Rooms {
   bool hold(std::size_t node) const { return !nodes.empty() && nodes[node]; }
 };
 
-/// Radii of balls, ascending: so many of them, the first ones, are less than `far`.
-std::size_t count_below(float far, const std::vector<float>& levels) {
-  return std::size_t(std::ranges::lower_bound(levels, far) - levels.begin());
+/// Of each node, how many of the balls fit there. `levels` has their radii, ascending.
+std::vector<std::uint8_t> balls_that_fit(const std::vector<float>& far, const std::vector<float>& levels) {
+  std::vector<std::uint8_t> fit(far.size());
+  std::ranges::transform(far, fit.begin(),
+                         [&](float d) { return std::uint8_t(std::ranges::lower_bound(levels, d) - levels.begin()); });
+  return fit;
 }
 
-/// Of each node, with how many of the balls it is reached from the border.
+/// Of each node, with how many of the balls it is reached from the border: a whole run at once.
 std::vector<std::uint8_t> balls_that_reach(const Grid& grid, const std::vector<float>& far,
                                            const std::vector<float>& levels) {
+  const std::vector<std::uint8_t> fit = balls_that_fit(far, levels);
   std::vector<std::uint8_t> reached(grid.node_count());
-  std::vector<Nodes> fronts(levels.size() + 1);
-  const auto visit = [&](std::size_t n, std::size_t balls) {
-    const std::size_t passing = std::min(balls, count_below(far[n], levels));
-    if (reached[n] > 0 || passing == 0) return;  // whoever comes first comes with the largest one
-    reached[n] = std::uint8_t(passing);
-    fronts[passing].push_back(static_cast<std::uint32_t>(n));
+  std::vector<std::vector<Run>> fronts(levels.size() + 1);
+  std::size_t balls = levels.size();
+  const auto reach_all = [&](std::size_t from, std::size_t to) {  // of one row
+    for (std::size_t n = from; n <= to; ++n) {
+      const std::size_t passing = std::min<std::size_t>(balls, fit[n]);
+      if (reached[n] > 0 || passing == 0) continue;  // whoever comes first comes with the largest one
+      const Run run = run_around(
+          grid, n, [&](std::size_t m) { return reached[m] == 0 && std::min<std::size_t>(balls, fit[m]) == passing; });
+      std::fill(&reached[run.first], &reached[run.last] + 1, std::uint8_t(passing));
+      fronts[passing].push_back(run);
+      n = run.last;
+    }
   };
-  grid.along_border([&](std::size_t n) { visit(n, levels.size()); });
-  for (std::size_t balls = levels.size(); balls > 0; --balls)
-    while (!fronts[balls].empty())
-      for (const std::uint32_t m : std::exchange(fronts[balls], {}))
-        grid.around(m, [&](std::size_t n) { visit(n, balls); });
+  grid.along_border([&](std::size_t n) { reach_all(n, n); });
+  for (; balls > 0; --balls)
+    while (!fronts[balls].empty()) {
+      const Run run = fronts[balls].back();
+      fronts[balls].pop_back();
+      beside(grid, run, reach_all);
+      if (run.first % grid.nodes(0) > 0) reach_all(run.first - 1, run.first - 1);
+      if (run.last % grid.nodes(0) + 1 < grid.nodes(0)) reach_all(run.last + 1, run.last + 1);
+    }
   return reached;
 }
 
