@@ -16,6 +16,9 @@ namespace prohull {
 namespace {
 
 constexpr double kSpacingsPerDiagonal = 256;
+// Wraps of an open cube and of three soups have 0.63, 0.66, 0.78 and 0.95 times as many faces, and take less time.
+// Where they leave triangles uncovered, all cells have one size.
+constexpr double kFlatness = 0.08;
 constexpr double kPerDiagonal = 100;  // spacings of wraps that estimate volumes
 
 void judge(ClosedSolid& solid, const ClosedSolidOptions& options) {
@@ -27,11 +30,12 @@ void judge(ClosedSolid& solid, const ClosedSolidOptions& options) {
                           solid.input);
 }
 
-TriangleMesh wrap_of(const RepairedMesh& input, double spacing, const ClosedSolidOptions& options) {
+TriangleMesh wrap_of(const RepairedMesh& input, double spacing, double flatness, const ClosedSolidOptions& options) {
   TriangleMesh to_cover = input.original;
   append(to_cover, input.caps);
   Wrap made = wrap(to_cover, {.spacing = spacing,
                               .seal_rooms = !input.closed && options.repair.open_shells == OpenShells::Close,
+                              .flatness = flatness,
                               .progress = options.progress});
   return closed_mesh(std::move(made.mesh)).mesh;
 }
@@ -57,8 +61,11 @@ ClosedSolid solid_of(TriangleMesh triangles, const ClosedSolidOptions& options) 
   solid.wrap_spacing = options.spacing > 0
                            ? options.spacing
                            : finite_bounding_box(solid.input.original).diagonal() / kSpacingsPerDiagonal;
-  solid.mesh = wrap_of(solid.input, solid.wrap_spacing, options);
-  judge(solid, options);
+  for (const double flatness : {kFlatness, 0.0}) {
+    solid.mesh = wrap_of(solid.input, solid.wrap_spacing, flatness, options);
+    judge(solid, options);
+    if (solid.verdict.certified) break;
+  }
   return solid;
 }
 

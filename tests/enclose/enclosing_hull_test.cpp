@@ -19,6 +19,7 @@
 #include "prohull/mesh_report.h"
 #include "prohull/sample.h"
 #include "prohull/verification.h"
+#include "prohull/wrap.h"
 
 namespace prohull {
 namespace {
@@ -439,6 +440,17 @@ TEST(ClosedSolid, KeepsAllFacesThatAreNotAroundAFold) {
   EXPECT_GT(solid.mesh.face_count(), mesh.face_count() - 40);
 }
 
+// All cells of its wrap had one size.
+TEST(ClosedSolid, HasFewerFacesWhereAnOpenShellIsFlat) {
+  TriangleMesh open = box({0, 0, 0}, {1, 1, 1});
+  open.triangles.pop_back(), open.triangles.pop_back();
+  const double spacing = bounding_box(open).diagonal() / 64;
+  const ClosedSolid solid = closed_solid(open, {.repair = {.open_shells = OpenShells::Keep}, .spacing = spacing});
+  EXPECT_TRUE(solid.verdict.certified);
+  EXPECT_EQ(solid.source, Source::Wrap);
+  EXPECT_LT(double(solid.mesh.face_count()), 0.8 * double(wrap(open, {.spacing = spacing}).mesh.face_count()));
+}
+
 // The wrap would collapse on the float32 grid, which took minutes to find out.
 TEST(ClosedSolid, InFloat32FarFromTheOriginIsRefusedBeforeAWrapIsMade) {
   EXPECT_THROW(closed_solid(moved(folded_rock(), {1e9, 1e9, 0}), {.float32_coordinates = true}), InputError);
@@ -574,6 +586,21 @@ TEST(EnclosingHull, OfACloserBoundIsNoLooserWhereItIsMissed) {
     return enclosing_hull(mesh, 20, {.bounds = {.max_void_ratio = most}, .repair = Repair::Wrap}).void_ratio;
   };
   EXPECT_LE(void_within(1e-6), void_within(1e-3));
+}
+
+// That of a closer one had a finer wrap, whose hull was half as far again.
+TEST(EnclosingHull, OfAFarCloserBoundIsNoLooserEither) {
+  TriangleMesh strip;
+  strip.positions = {{-1, 1, -1}, {1, 1, -1}, {-1, -2, 0}, {1, -1, -1}, {2, -2, 1},
+                     {0, 1, -1},  {-2, 2, 2}, {1, 0, 2},   {1, -2, 2},  {-1, 2, 0}};
+  constexpr std::array<std::array<std::uint32_t, 3>, 8> kTriangles{
+      {{0, 1, 2}, {1, 2, 3}, {2, 3, 4}, {3, 4, 5}, {4, 5, 6}, {5, 6, 7}, {6, 7, 8}, {7, 8, 9}}};
+  for (const auto& [a, b, c] : kTriangles) strip.triangles.push_back({VertexId{a}, VertexId{b}, VertexId{c}});
+  const auto distance_within = [&](double share) {
+    const double bound = share * bounding_box(strip).diagonal();
+    return bound * enclosing_hull(strip, 20, {.bounds = {.max_distance = bound}}).excess;
+  };
+  EXPECT_LE(distance_within(0.001), distance_within(0.003));
 }
 
 // The convex solid around its corners misses the bound by a hundredth.
