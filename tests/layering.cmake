@@ -42,7 +42,8 @@ room(cover     OWNS convex_cover detail/given_options detail/told_notes sphere_c
                                                                                      geometry parallel base
                                                                                      prohull/mesh_query prohull/collide)
 room(certificate OWNS certificate                                                MAY verify hull mesh geometry parallel base)
-room(collide   OWNS collide detail/drift                                         MAY mesh geometry parallel base)
+room(collide   OWNS collide detail/collision_levels detail/drift                                         MAY mesh geometry parallel base
+                                                                                     prohull/progressive_hull)
 
 # Outside of src/: public headers, all of them, and these folders.
 set(outside render robot view paper apps examples python js)

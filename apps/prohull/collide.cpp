@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "command.h"
+#include "prohull/detail/collision_levels.h"
 #include "prohull/detail/inside_out.h"
 #include "prohull/detail/query_io.h"
 #include "prohull/detail/summary.h"
@@ -26,10 +27,11 @@ const OutputKind& pair_outputs() {
 
 std::vector<Pose> poses_of(const CollideOptions& options) {
   if (!options.poses.empty())
-    return read_poses(read_bytes(options.poses), std::filesystem::path(input_name(options.poses)));
+    return require_some(read_poses(read_bytes(options.poses), std::filesystem::path(input_name(options.poses))),
+                        "poses", options.poses);
   if (options.pose.empty()) return {Pose{}};
   try {
-    return read_poses(std::string_view(options.pose), "--pose");
+    return require_some(read_poses(std::string_view(options.pose), "--pose"), "numbers", "--pose");
   } catch (const InputError& error) {
     throw InputError(Defect::InvalidOption, error.what());
   }
@@ -42,22 +44,12 @@ struct Body {
   InsideOut inside_out = {};  ///< if it is closed: nothing is inside of these components
 };
 
-TriangleMesh outer_hull(const ProgressiveHull& levels) {
-  if (levels.side() == HullSide::Inner)
-    throw InputError(Defect::InvalidOption, "it holds inner hulls; --conservative needs outer ones");
-  return levels.base();
-}
-
-CollisionIndex index_of(const ProgressiveHull& levels, const CollideOptions& options) {
-  return CollisionIndex(options.conservative ? outer_hull(levels) : levels.original());
-}
-
 Body read_body(const CollideOptions& options, const std::filesystem::path& path) {
   const MeshOrHull read = read_mesh_or_hull(path, options.input);
   stop_if_interrupted();
   return naming(path, [&]() -> Body {
     if (const auto* const levels = std::get_if<ProgressiveHull>(&read))
-      return {index_of(*levels, options), levels->finest_level()};
+      return {collision_index(*levels, options.conservative), levels->finest_level()};
     const auto& mesh = std::get<TriangleMesh>(read);
     CollisionIndex index(mesh);
     const bool closed = is_closed(mesh);
@@ -186,7 +178,8 @@ int run_collide(const CollideOptions& options) {
   outputs.add_report(options.report, report_of(options, a, b, answers, seconds));
   outputs.commit();
   print_summary(options, answers);
-  print_notes(a, options.a), print_notes(b, options.b);
+  print_notes(a, options.a);
+  if (options.b != options.a) print_notes(b, options.b);
   say_more("  {} and {}; read and index {:.2f} s, answer {:.3f} s\n", counted(a.index.face_count(), "face"),
            counted(b.index.face_count(), "face"), read_seconds, seconds);
   return std::ranges::find(answers.collide, true) == answers.collide.end() ? kDone : kAnswerIsNo;

@@ -4,7 +4,7 @@
 
 #include "arrays.h"
 #include "module.h"
-#include "prohull/collide.h"
+#include "prohull/detail/collision_levels.h"
 #include "watch.h"
 
 namespace py = pybind11;
@@ -79,6 +79,10 @@ void bind_collisions(py::module_& module) {
       .def(py::init([](const TriangleMesh& mesh) {
         const py::gil_scoped_release released;
         return CollisionIndex(mesh);
+      }))
+      .def(py::init([](const ProgressiveHull& levels, bool conservative) {
+        const py::gil_scoped_release released;
+        return collision_index(levels, conservative);
       }))
       .def_property_readonly("is_solid", &CollisionIndex::is_solid)
       .def("collides", &collides)

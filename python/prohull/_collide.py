@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _prohull
-from ._files import mesh_of
+from ._files import levels_of, mesh_of, naming
 from ._prohull import InputError
 from ._types import MeshLike, Progress
 
@@ -30,10 +30,11 @@ class Distances(NamedTuple):
 class Collider:
     """A mesh made ready for collisions. Built once, it serves every pose, and any number of threads.
 
-    A closed mesh stands for a solid: its faces and what it winds around. Any other mesh stands for its faces alone. All
-    methods take these arguments:
+    A closed mesh stands for a solid: its faces and what it winds around. Any other mesh stands for its faces alone. A
+    .phull file stands for the original in it, and only collides(..., conservative=True) asks its coarsest hull; a Hull
+    stands for itself. All methods take these arguments:
 
-    other: a Collider, or a mesh as verify() takes it.
+    other: a Collider, or what it is made of.
     poses: where `other` is: matrices of shape (n, 4, 4), a rotation and a translation each. One matrix, (4, 4), counts
         as n = 1. Without it, `other` stays where it is.
     own_poses: where this mesh is, in the same way. A single pose goes with all of the other mesh, and the reverse.
@@ -49,7 +50,21 @@ class Collider:
 
     def __init__(self, mesh: MeshLike) -> None:
         """Builds the index of a mesh, as verify() takes it."""
-        self._core = _prohull.CollisionIndex(mesh_of(mesh)._core)
+        self._given = mesh
+        self._levels = levels_of(mesh)
+        asked = mesh_of(mesh)._core if self._levels is None else None
+        with naming(mesh):
+            self._core = (_prohull.CollisionIndex(asked) if self._levels is None else
+                          _prohull.CollisionIndex(self._levels, False))
+        self._hull: Optional[_prohull.CollisionIndex] = None  # of the levels; built when it is first asked
+
+    def _index(self, conservative: bool) -> _prohull.CollisionIndex:
+        if self._levels is None or not conservative:
+            return self._core
+        if self._hull is None:
+            with naming(self._given):
+                self._hull = _prohull.CollisionIndex(self._levels, True)
+        return self._hull
 
     @property
     def is_solid(self) -> bool:
@@ -65,10 +80,13 @@ class Collider:
         Returns an array of shape (n,); True or False if no array of shape (n, 4, 4) was given.
 
         conservative: whether to answer for what the two meshes enclose, as outer hulls do. False is then certain,
-            whatever they enclose; True is not.
+            whatever they enclose; True is not. Of a .phull file the coarsest hull is asked; raises InputError if that
+            is an inner one.
         """
         is_one, own, others = _pose_pairs(own_poses, poses)
-        answers = self._core.collides(_collider(other)._core, own, others, conservative, threads, progress)
+        threads = _arrays.count("threads", threads)
+        first, second = self._index(conservative), _collider(other)._index(conservative)
+        answers = first.collides(second, own, others, conservative, threads, progress)
         return bool(answers[0]) if is_one else answers
 
     def intersecting_faces(self, other: Union["Collider", MeshLike], poses: Optional[ArrayLike] = None, *,
@@ -76,6 +94,7 @@ class Collider:
                            progress: Optional[Progress] = None) -> FacePairs:
         """Finds all pairs of faces that have a point in common in each pose, exactly. Touching counts."""
         _, own, others = _pose_pairs(own_poses, poses)
+        threads = _arrays.count("threads", threads)
         return FacePairs(*self._core.intersecting_faces(_collider(other)._core, own, others, threads, progress))
 
     def distances(self, other: Union["Collider", MeshLike], poses: Optional[ArrayLike] = None, *,
@@ -83,6 +102,7 @@ class Collider:
                   progress: Optional[Progress] = None) -> Distances:
         """Finds the least distance in each pose, with two proven bounds that differ by rounding only."""
         _, own, others = _pose_pairs(own_poses, poses)
+        threads = _arrays.count("threads", threads)
         return Distances(*self._core.distances(_collider(other)._core, own, others, threads, progress))
 
 

@@ -29,6 +29,12 @@ def mesh_of(mesh: MeshLike, keep_non_finite: bool = False) -> Mesh:
     return Mesh(*arrays)
 
 
+def levels_of(mesh: Any) -> Optional[_prohull.Levels]:
+    """Those in a .phull file, not verified; None of anything else."""
+    is_path = isinstance(mesh, (str, os.PathLike))
+    return _prohull.load(mesh) if is_path and _prohull.is_hull_file(_arrays.path(mesh)) else None
+
+
 @contextlib.contextmanager
 def naming(mesh: Any) -> Iterator[None]:
     """Errors name the mesh if it was given as a file."""

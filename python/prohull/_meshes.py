@@ -149,7 +149,8 @@ class Mesh(Shown):
 
     def __repr__(self) -> str:
         size = " x ".join(f"{side:.4g}" for side in np.ptp(self.vertices, axis=0)) if len(self.vertices) else "0"
-        return f"<prohull.Mesh: {len(self.vertices):,} vertices, {len(self.faces):,} faces, size {size}>"
+        return (f"<prohull.Mesh: {_arrays.counted(len(self.vertices), 'vertex', 'vertices')}, "
+                f"{_arrays.counted(len(self.faces), 'face')}, size {size}>")
 
     def picture(self, width: int = 400, height: int = 300) -> bytes:
         """Draws the mesh; of a hull, draws it around its original. Returns the content of a .png file.
@@ -245,6 +246,7 @@ class Mesh(Shown):
             length.
         segments instead: (n, 2, 3) or (n, 6), both ends of each.
         """
+        threads = _arrays.count("threads", threads)
         return FirstHits(*self._index(engine).first_hits(*_lines(origins, directions, segments), threads, progress))
 
     def any_hit(self, origins: Optional[ArrayLike] = None, directions: Optional[ArrayLike] = None, *,
@@ -254,12 +256,14 @@ class Mesh(Shown):
 
         The arguments are those of first_hit().
         """
+        threads = _arrays.count("threads", threads)
         return self._index(engine).any_hits(*_lines(origins, directions, segments), threads, progress)
 
     def all_hits(self, origins: Optional[ArrayLike] = None, directions: Optional[ArrayLike] = None, *,
                  segments: Optional[ArrayLike] = None, engine: Engine = "auto", threads: int = 0,
                  progress: Optional[Progress] = None) -> AllHits:
         """Finds for each ray, or for each segment, all of its hits. The arguments are those of first_hit()."""
+        threads = _arrays.count("threads", threads)
         return AllHits(*self._index(engine).all_hits(*_lines(origins, directions, segments), threads, progress))
 
     def faces_met(self, triangles: ArrayLike, *, engine: Engine = "auto", threads: int = 0,
@@ -269,6 +273,7 @@ class Mesh(Shown):
         triangles: (n, 3, 3) or (n, 9), the corners of each.
         """
         rows = _arrays.rows("triangles", triangles, (3, 3), (9,)).reshape(-1, 9)
+        threads = _arrays.count("threads", threads)
         return FacesMet(*self._index(engine).triangles_met(rows, threads, progress))
 
     @overload
@@ -287,6 +292,7 @@ class Mesh(Shown):
         the engine "paper-refinement", which may miss crossings.
         """
         is_one = np.shape(points) == (3,)
+        threads = _arrays.count("threads", threads)
         inside = self._index(engine).contains(_arrays.points(points), threads, progress)
         return bool(inside[0]) if is_one else inside
 
@@ -297,6 +303,7 @@ class Mesh(Shown):
         points: (n, 3), or a single point, (3,), which is row 0 of the answer.
         max_distance: points of which the mesh is not certainly within this distance get no answer; saves time.
         """
+        threads = _arrays.count("threads", threads)
         return ClosestPoints(*self._index(engine).closest(_arrays.points(points), max_distance, threads, progress))
 
     def signed_distance(self, points: ArrayLike, *, engine: Engine = "auto", threads: int = 0,
@@ -305,6 +312,7 @@ class Mesh(Shown):
 
         points: as of closest(). Raises InputError as contains() does.
         """
+        threads = _arrays.count("threads", threads)
         return ClosestPoints(*self._index(engine).signed_distances(_arrays.points(points), threads, progress))
 
     def _index(self, engine: Engine) -> _prohull.Index:

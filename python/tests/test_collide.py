@@ -58,9 +58,45 @@ def test_hulls(hull, random):
     assert not (exact & ~hull_alone.collides(hull_alone, poses, conservative=True)).any()
 
 
+def test_a_file_of_levels_answers_for_its_original(tmp_path):
+    mesh = prohull.sample("pony", 2000)
+    speck = prohull.Mesh(1e-6 * np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]),
+                         [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    for side in ("outer", "inner"):
+        path = tmp_path / f"{side}.phull"
+        hull = prohull.build(mesh, 100, side=side, levels=True)
+        hull.save(path)
+        file, original, coarse = prohull.Collider(path), prohull.Collider(mesh), prohull.Collider(hull)
+        poses = np.array([moved(*at) for at in [*hull.vertices, *mesh.vertices[::20]]])
+        exact = original.collides(speck, poses)
+        assert (file.collides(speck, poses) == exact).all()
+        assert (prohull.Collider(speck).collides(path, own_poses=poses) == exact).all(), "as the other one, too"
+        assert (coarse.collides(speck, poses) != exact).any(), "the hull alone answers otherwise"
+        if side == "outer":
+            may = file.collides(speck, poses, conservative=True)
+            assert (may == coarse.collides(speck, poses, conservative=True)).all()
+        else:
+            with pytest.raises(prohull.InputError, match="inner.phull: the hulls are inner ones"):
+                file.collides(speck, poses, conservative=True)
+
+
 def test_an_open_mesh_is_no_solid(cube):
     lid_off = prohull.Collider(prohull.Mesh(cube[0], cube[1][1:]))
     assert not lid_off.is_solid and lid_off.collides(prohull.Mesh(cube[0] * 0.1, cube[1])) is False
+
+
+@pytest.mark.parametrize("threads", [-1, 1.5, 1 << 40])
+def test_wrong_counts_of_threads(box, cube, threads):
+    mesh, points = prohull.Mesh(*cube), np.zeros((1, 3))
+    asked = [box.collides, box.intersecting_faces, box.distances]
+    asked = [lambda ask=ask: ask(box, threads=threads) for ask in asked]
+    asked += [lambda ask=ask: ask(segments=[[0, 0, 0, 1, 1, 1]], threads=threads)
+              for ask in (mesh.first_hit, mesh.any_hit, mesh.all_hits)]
+    asked += [lambda ask=ask: ask(points, threads=threads) for ask in (mesh.contains, mesh.closest, mesh.signed_distance)]
+    asked.append(lambda: mesh.faces_met(np.zeros((1, 9)), threads=threads))
+    for ask in asked:
+        with pytest.raises(prohull.InputError, match=f"threads={threads}: expected a whole number"):
+            ask()
 
 
 def test_bad_poses(box):

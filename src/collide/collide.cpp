@@ -15,6 +15,7 @@
 #include "geometry/triangle_distance.h"
 #include "geometry/usable_size.h"
 #include "parallel/arena.h"
+#include "prohull/detail/collision_levels.h"
 #include "prohull/detail/progress_meter.h"
 #include "prohull/error.h"
 
@@ -224,6 +225,13 @@ TriangleMesh placed(const Pose& pose, TriangleMesh mesh) {
 
 CollisionIndex::CollisionIndex(const TriangleMesh& mesh, StandsFor what)
     : mesh_(std::make_shared<const CollisionMesh>(mesh, what)) {}
+
+CollisionIndex collision_index(const ProgressiveHull& levels, bool conservative) {
+  if (conservative && levels.side() == HullSide::Inner)
+    throw InputError(Defect::InvalidOption,
+                     "the hulls are inner ones, which enclose nothing; conservative answers need outer ones");
+  return CollisionIndex(conservative ? levels.base() : levels.original());
+}
 
 bool CollisionIndex::is_solid() const { return mesh_->is_solid; }
 std::size_t CollisionIndex::face_count() const { return mesh_->mesh.face_count(); }
