@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "robot/motion/kinematics.h"
 
@@ -155,7 +156,7 @@ void JointPath::check_rows() const {
     for (std::size_t row = 0; row < values.size(); ++row) {
       if (may_be_missing && values[row].empty()) continue;
       if (values[row].size() != joints_.size())
-        refuse(row, fmt::format("{} {} for {} joints", values[row].size(), what, joints_.size()));
+        refuse(row, fmt::format("{}: {} for {}", what, values[row].size(), counted(joints_.size(), "joint")));
       for (std::size_t k = 0; k < joints_.size(); ++k)
         if (!(std::abs(values[row][k]) <= kLargest))
           refuse(row, fmt::format("{} of joint '{}': {} is no number from -1e6 to 1e6", what, rows_.joints[k],

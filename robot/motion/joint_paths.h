@@ -13,12 +13,9 @@ class JointPaths {
  public:
   explicit JointPaths(const Robot& robot);
 
+  /// Whether a joint connects the links directly, or fixed joints do: of the joints between them, which lead over links
+  /// without geometry, at most one moves. Joints in a row (Joint) are one. Floating and planar joints connect nothing.
   bool are_adjacent(std::size_t a, std::size_t b) const {
-    return rigid_group_[a] == rigid_group_[b] || hangs_on_[a] == b || hangs_on_[b] == a;
-  }
-  /// Whether a single joint connects two adjacent links, or fixed joints do: of those between them, which lead over
-  /// links without geometry, at most one moves. Joints in a row (Joint) are one.
-  bool are_next(std::size_t a, std::size_t b) const {
     return rigid_group_[a] == rigid_group_[b] || (hangs_on_[a] == b && moves_between_[a] <= 1) ||
            (hangs_on_[b] == a && moves_between_[b] <= 1);
   }

@@ -37,8 +37,7 @@ struct MotionOptions {
 };
 
 enum class PairKind {
-  /// Fixed joints connect them, or one hangs on the other by a joint, or by joints with only links between them that
-  /// have no shapes in Robot::links. Floating and planar joints do not make links adjacent.
+  /// A joint connects them directly, or fixed joints do (JointPaths::are_adjacent).
   Adjacent,
   Always,        ///< they collide in 95 % of the configurations or more, as the hulls say; sampled, no proof
   Never,         ///< they collide in none, as the hulls and the visual geometry say; sampled, no proof

@@ -163,7 +163,7 @@ std::vector<BodyPair> pairs_on_path(const Robot& robot, std::span<const PathBody
   for (const auto& [a, b] : names) ignored.insert(std::minmax({body_called(bodies, a), body_called(bodies, b)}));
   const JointPaths joints(robot);
   const auto are_ignored_links = [&](std::size_t a, std::size_t b) {
-    return joints.are_next(a, b) || std::ranges::find(links, LinkPair(std::minmax(a, b))) != links.end();
+    return joints.are_adjacent(a, b) || std::ranges::find(links, LinkPair(std::minmax(a, b))) != links.end();
   };
   std::vector<BodyPair> pairs;
   for (std::size_t a = 0; a < bodies.size(); ++a)

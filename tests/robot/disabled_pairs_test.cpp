@@ -76,6 +76,20 @@ TEST(DisabledPairs, AreRefutedWhereTheyMeetUnlessTheirReasonAllowsForIt) {
   EXPECT_TRUE(checks[7].is_refuted());
 }
 
+TEST(DisabledPairs, AreDecidedWhereTwoJointsMoveBetweenThem) {
+  std::string text = kRobot;  // without b's geometry, two joints lead from a to c
+  const std::size_t begin = text.find("<link name=\"b\">"), end = text.find("<link name=\"c\">");
+  text.replace(begin, end - begin, "<link name=\"b\"/>");
+  text.replace(text.find("REACH"), 5, "2.75");
+  text.replace(text.find("xyz=\"0 0 3\""), 11, "xyz=\"0 0 0\"");
+  const RobotFile file = read_robot(text, "r.urdf");
+  const std::string srdf = "<robot name=\"r\">" + row("a", "c", "Never") + row("a", "b", "Adjacent") + "</robot>";
+  const auto checks = check_disabled_pairs(file.robot, disabled_rows(file.robot, srdf, "r.srdf"));
+  EXPECT_EQ(checks[0].collision.verdict, PairVerdict::Meets);
+  EXPECT_TRUE(checks[0].is_refuted());
+  EXPECT_EQ(checks[1].collision.verdict, PairVerdict::Adjacent);
+}
+
 TEST(DisabledPairs, AreThoseByDefaultToo) {
   const RobotFile file = robot_with_reach("1");
   const std::string srdf =

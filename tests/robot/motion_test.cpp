@@ -263,9 +263,9 @@ PairKind kind_of(const MotionResult& result, std::size_t a, std::size_t b) {
 }
 
 TEST(CheckMotion, TellsAdjacentPairsFromOthers) {
-  // 0 - (1 without geometry) - 2 and 3, which share the empty parent; 4 and 5 are fixed to 2; 6 moves far from all;
-  // 7 hangs on 5 by a fixed and a moving joint
-  Robot robot = robot_of(8, {joint(JointType::Continuous, 0, 1, {}, kX), joint(JointType::Continuous, 1, 2, {}, kX),
+  // 0 - (1 without geometry, fixed to it) - 2 and 3, which share the empty parent; 4 and 5 are fixed to 2; 6 moves far
+  // from all; 7 hangs on 5 by a fixed and a moving joint
+  Robot robot = robot_of(8, {joint(JointType::Fixed, 0, 1, {}, kX), joint(JointType::Continuous, 1, 2, {}, kX),
                              joint(JointType::Continuous, 1, 3, {}, kX), joint(JointType::Fixed, 2, 4, {}, kX),
                              joint(JointType::Fixed, 4, 5, {}, kX), joint(JointType::Continuous, 3, 6, {100, 0, 0}, kX),
                              joint(JointType::Fixed, 5, 7, {}, kX), joint(JointType::Continuous, 5, 7, {}, kX)});
@@ -283,6 +283,23 @@ TEST(CheckMotion, TellsAdjacentPairsFromOthers) {
   EXPECT_EQ(kind_of(result, 5, 7), PairKind::Adjacent);
   EXPECT_EQ(kind_of(result, 4, 7), PairKind::Always) << "the second joint of the row moves";
   EXPECT_EQ(result.hull_configurations, 0U) << "pairs that always collide do not count";
+}
+
+/// A crane: its slider has no geometry, and what it turns comes back to the base.
+Robot crane(JointType slider) {
+  Robot robot =
+      robot_of(3, {limited(joint(slider, 0, 1, {2, 0, 0}, kX), -3, 3), joint(JointType::Continuous, 1, 2, {}, kZ)});
+  robot.links[1].visual.clear();
+  return robot;
+}
+
+TEST(CheckMotion, ComparesLinksBetweenWhichTwoJointsMove) {
+  const std::vector<TriangleMesh> meshes = cubes({true, false, true});
+  const auto kind_with = [&](JointType slider) {
+    return kind_of(check_motion(crane(slider), {meshes, meshes, meshes}, {.configurations = 20}), 0, 2);
+  };
+  EXPECT_EQ(kind_with(JointType::Fixed), PairKind::Adjacent);
+  EXPECT_EQ(kind_with(JointType::Prismatic), PairKind::Sometimes);
 }
 
 MotionResult with_cubes(const Robot& robot, const std::vector<bool>& there) {
@@ -355,8 +372,8 @@ TEST(CheckMotion, KnowsNothingAboutLinksThatFollowAJointAtRest) {
 }
 
 TEST(CheckMotion, DoesNotTakeASkippedLinkForAnEmptyOne) {
-  Robot robot = robot_of(
-      3, {joint(JointType::Continuous, 0, 1, {2, 0, 0}, kZ), joint(JointType::Continuous, 1, 2, {2, 0, 0}, kZ)});
+  Robot robot =
+      robot_of(3, {joint(JointType::Continuous, 0, 1, {2, 0, 0}, kZ), joint(JointType::Fixed, 1, 2, {2, 0, 0}, kZ)});
   EXPECT_EQ(kind_of(with_cubes(robot, {true, false, true}), 0, 2), PairKind::Sometimes);
   robot.links[1].visual = {{OtherForm{"ellipsoid"}}};
   EXPECT_EQ(kind_of(with_cubes(robot, {true, false, true}), 0, 2), PairKind::Sometimes);

@@ -526,7 +526,7 @@ TEST(PathFile, RefusesWhatIsNoPathInOneLine) {
       {R"({"joints": [3]})", "p: joints: expected names of joints"},
       {R"({"joints": [], "positions": []})", "p: there are no joints"},
       {R"({"joints": ["joint0"], "positions": []})", "p: there are no rows of positions"},
-      {R"({"joints": ["joint0"], "positions": [[1], [1, 2]]})", "p: row 1: 2 positions for 1 joints"},
+      {R"({"joints": ["joint0"], "positions": [[1], [1, 2]]})", "p: row 1: positions: 2 for 1 joint"},
       {R"({"joints": ["joint0"], "positions": [["x"]]})", "p: positions[0]: expected a finite number"},
       {R"({"joints": ["joint0"], "positions": [[1]], "times": [1, 2]})",
        "p: row 1: times are not of as many rows as positions"},
