@@ -321,7 +321,7 @@ void print_summary(const ConvexOptions& options, const PieceFiles& files, const 
   if (outcome.certified() && !options.certificate.empty())
     print_certificate(options.certificate, outcome.certificate, files.meshes(cover.pieces), options.in);
   if (!outcome.others.empty())
-    say("  also there, but no pieces of this mesh: {}; remove them if they are of an earlier run\n",
+    say("  also there, but not of this run: {}; remove them if they are pieces of an earlier one\n",
         fmt::join(outcome.others, ", "));
   say("  read {:.2f} s, cover {:.2f} s, write {:.2f} s, verify {:.2f} s\n", outcome.read_seconds, cover.seconds,
       outcome.write_seconds, cover.verify_seconds);

@@ -114,7 +114,7 @@ std::string text_of_origin(const SphereCover& cover) {
 void print_summary(const SpheresOptions& options, const Outcome& outcome) {
   const SphereCover& cover = outcome.cover;
   say("{}: {} around {}, which reach out by at most {:.4g}, {:.3g} % of the diagonal{}\n", output_name(options.out),
-      counted(cover.balls.size(), "sphere"), counted(outcome.faces, "face"),
+      counted(cover.balls.size(), "sphere"), counted(outcome.faces - cover.verdict.non_finite_faces, "face"),
       rounded_up(cover.verdict.distance().upper, 4), rounded_up(100 * outcome.part_of_diagonal(), 3),
       text_of_origin(cover));
   if (!cover.within_bounds) say("  --max-distance {:g} is not kept\n", options.cover.max_distance);

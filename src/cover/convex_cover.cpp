@@ -15,6 +15,7 @@
 #include "cover/cavities.h"
 #include "cover/cut_tree.h"
 #include "cover/enclosing_options.h"
+#include "cover/left_out.h"
 #include "cover/piece_hull.h"
 #include "cover/primitives.h"
 #include "cover/shape_choice.h"
@@ -186,6 +187,7 @@ class Covering {
   ConvexCover run() {
     ConvexCover cover = certified_cover();
     cover.fills_cavities = add_note_of_cavities(inside_.volume, fillable_, cover.notes);
+    add_note_of_left_out(prepared_.repairs, cover.notes);
     return cover;
   }
 

@@ -13,6 +13,7 @@
 #include "cover/depth.h"
 #include "cover/enclosing_options.h"
 #include "cover/inside_cubes.h"
+#include "cover/left_out.h"
 #include "cover/patches.h"
 #include "cover/wrap_around.h"
 #include "geometry/largest_coordinate.h"
@@ -76,6 +77,7 @@ class SphereCoverer {
     const Stopwatch all;
     find_solid();
     SphereCover cover = best_cover();
+    cover::add_note_of_left_out(input_.repairs, cover.notes);
     cover.seconds = all.seconds();
     return cover;
   }

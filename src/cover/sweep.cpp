@@ -283,9 +283,6 @@ Sweep sweep(TriangleMesh mesh, std::span<const RigidMotion> motions, const Sweep
   result.verdict.proof = "sweep";
   result.fills_cavities = cover.fills_cavities;
   result.notes = std::move(cover.notes);
-  if (result.verdict.non_finite_faces > 0)
-    result.notes.push_back(
-        fmt::format("triangles with corners that are not finite were left out: {}", result.verdict.non_finite_faces));
   result.seconds = watch.seconds();
   return result;
 }

@@ -57,6 +57,10 @@ expect 1 "bounds that cannot be kept" $prohull convex part.stl --pieces 1 --max-
 says out "bounds that cannot be kept" "NOT within the bounds asked for"
 is "what misses bounds is written" test -s far.obj
 
+printf 'OFF\n5 5 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nnan 0 0\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n3 0 1 4\n' >nan.off
+expect 0 "a corner that is no number" $prohull convex nan.off --pieces 1 -o nan.obj
+says out "a corner that is no number" "triangles with corners that are not finite were left out: 1"
+
 # --- robot files ---
 for suffix in urdf xml; do
   rm -f r_*.stl

@@ -46,6 +46,11 @@ is "a unit makes metres" test "$(grep radius mm.json)" != "$(grep radius whole.j
 expect 0 "a distance" $prohull spheres bracket.stl --max-distance 0.4 -o near.yaml --report near.json
 says near.json "a distance is kept" '"within_bounds": true'
 
+printf 'OFF\n5 5 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nnan 0 0\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n3 0 1 4\n' >nan.off
+expect 0 "a corner that is no number" $prohull spheres nan.off --count 4 -o nan.yaml
+says out "a corner that is no number" "around 4 faces"
+says out "a corner that is no number" "triangles with corners that are not finite were left out: 1"
+
 # --- the answer no ---
 expect 1 "a distance that takes more spheres" $spheres --max-distance 0.001 -o far.yaml
 says out "a distance that takes more spheres" "--max-distance 0.001 is not kept"
