@@ -235,9 +235,11 @@ void add_cage(CLI::App& app, Run& run) {
   add_length(command, "--gap", options->gap,
              "Distance that both hulls keep from the mesh, at least. Without this option it is 0.1%. The inner hull "
              "keeps less where none that keeps it is found, as in a thin mesh.");
-  command.add_flag("--even", cage.even,
-                   "Make all triangles of the hulls well shaped, as simulation needs them: split, flip and collapse "
-                   "edges, and move vertices. The hulls then have more void.");
+  command.add_flag(
+      "--even", cage.even,
+      "Make all triangles of the hulls well shaped, as simulation needs them: split, flip and collapse edges, and move "
+      "vertices. The hulls then have more void, and take several times as long: up to four hulls of each side are "
+      "tried, all of them where the number of faces is small.");
   command.add_flag("--tight", cage.tight,
                    "Start from hulls of least void, as `prohull build --tight` makes them, which takes longer.");
   add_threads_option(command, cage.threads, "The cage is the same for any number.");

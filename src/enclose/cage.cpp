@@ -18,6 +18,7 @@
 #include "prohull/padded_hull.h"
 #include "prohull/tight_hull.h"
 #include "prohull/verification.h"
+#include "repair/steps.h"
 #include "verify/gap.h"
 
 namespace prohull {
@@ -29,8 +30,6 @@ class CageMaker {
  public:
   CageMaker(TriangleMesh triangles, const CageOptions& options) : options_(options), triangles_(std::move(triangles)) {
     cage_.gap = options.gap > 0 ? options.gap : kCageGap * finite_bounding_box(triangles_).diagonal();
-    if (!(cage_.gap > 0) && triangles_.face_count() > 0)  // without faces, the hulls have the better message
-      throw InputError(Defect::InvalidOption, "the mesh has no size that a gap could be taken from: give the gap");
   }
 
   Cage run() {
@@ -237,6 +236,7 @@ void require_usable(const CageOptions& options) {
 }  // namespace
 
 Cage build_cage(TriangleMesh triangles, const CageOptions& options) {
+  require_usable_size(finite_bounding_box(triangles));
   require_usable(options);
   return CageMaker(std::move(triangles), options).run();
 }

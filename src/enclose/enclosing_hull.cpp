@@ -15,6 +15,7 @@
 #include "prohull/detail/finite.h"
 #include "prohull/detail/float32_hull.h"
 #include "prohull/error.h"
+#include "repair/steps.h"
 
 namespace prohull {
 namespace {
@@ -181,6 +182,7 @@ EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size
   if (options.best_of < 1) throw InputError(Defect::InvalidOption, "best_of is 0; it must be at least 1");
   if (options.tight && options.levels)
     throw InputError(Defect::InvalidOption, "a tight hull has no levels: ask for one of the two");
+  require_usable_size(finite_bounding_box(triangles));
   require_usable_padding(options);
   require_usable_tolerances(triangles, options);
   require_usable_mirror(options);

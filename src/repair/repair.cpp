@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -27,15 +28,6 @@ std::string why_not_closed(const MeshReport& report) {
     if (defect.count > 0 && !defect.allowed)
       counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", grouped(defect.count), defect.description);
   return fmt::format("{} (in all: {})", report.first_defect, counts);
-}
-
-void require_usable_size(const Box& box) {
-  constexpr double kSmallest = 1e-100;
-  require_usable_reach(box, "coordinates");
-  if (box.diagonal() < kSmallest)
-    throw InputError(Defect::NoVolume,
-                     fmt::format("the mesh is only {:g} across; below {:g} volumes vanish: scale the mesh",
-                                 box.diagonal(), kSmallest));
 }
 
 void require_faces(const TriangleMesh& mesh) {
@@ -151,6 +143,23 @@ std::vector<Opening> openings_to_close(const TriangleMesh& mesh) {
 }
 
 }  // namespace
+
+void require_usable_size(const Box& box) {
+  constexpr double kSmallest = 1e-100;
+  if (box.is_empty()) return;
+  require_usable_reach(box, "coordinates");
+  if (box.min == box.max)
+    throw InputError(
+        Defect::NoVolume,
+        fmt::format("all points of the mesh are one, ({:g}, {:g}, {:g}): there is nothing to enclose but a point; look "
+                    "at where the mesh comes from",
+                    box.min.x, box.min.y, box.min.z));
+  const Vec3 d = box.max - box.min;
+  if (const double size = std::hypot(d.x, d.y, d.z); size < kSmallest)
+    throw InputError(
+        Defect::NoVolume,
+        fmt::format("the mesh is only {:g} across; below {:g} volumes vanish: scale the mesh", size, kSmallest));
+}
 
 std::vector<std::string> describe(const Repairs& repairs) {
   std::vector<std::string> phrases;

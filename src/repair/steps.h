@@ -11,6 +11,10 @@ namespace prohull {
 
 // What a repair is made of. Each step counts what it did.
 
+/// Throws InputError: NonFiniteCoordinate beyond 1e100, NoVolume for a box that is a point, or less than 1e-100 across.
+/// An empty box is as good as any.
+void require_usable_size(const Box& box);
+
 /// Drops the faces with a corner that is NaN or infinite.
 void drop_non_finite_faces(TriangleMesh& mesh, Repairs& repairs);
 

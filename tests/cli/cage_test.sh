@@ -46,6 +46,16 @@ expect 2 "a gap of nothing" $cage -o a.obj --gap 0
 printf 'OFF\n0 0 0\n' >empty.off
 expect 3 "no faces" $prohull cage empty.off -o a.obj
 says err "no faces" "empty.off: the mesh has no faces: nothing to enclose"
+printf 'OFF\n4 4 0\n0 0 0\n1e200 0 0\n0 1e200 0\n0 0 1e200\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >far.off
+for gap in "" "--gap 1%"; do
+  expect 3 "coordinates that overflow, $gap" $prohull cage far.off -o a.obj --inner b.obj $gap
+  says err "coordinates that overflow, $gap" "far.off: coordinates reach 1e+200; beyond 1e+100 volumes overflow: scale the mesh"
+done
+printf 'OFF\n3 1 0\n1 2 3\n1 2 3\n1 2 3\n3 0 1 2\n' >point.off
+for command in "build -o a.obj" "cage -o a.obj" "convex -o a.obj" "spheres -o a.yaml" "repair -o a.obj"; do
+  expect 3 "a point: $command" $prohull ${command%% *} point.off ${command#* }
+  says err "a point: $command" "point.off: all points of the mesh are one, (1, 2, 3): there is nothing to enclose but a point"
+done
 printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n' >sheet.off
 expect 0 "a sheet" $prohull cage sheet.off -o sheet.obj --strict
 expect 3 "an inner hull of a sheet" $prohull cage sheet.off -o a.obj --inner b.obj
