@@ -5,6 +5,7 @@
 #include <span>
 
 #include "command.h"
+#include "prohull/detail/finite.h"
 #include "prohull/detail/openings.h"
 #include "prohull/detail/rounded.h"
 #include "prohull/detail/summary.h"
@@ -173,23 +174,23 @@ double volume_of(const TriangleMesh& level) { return solid_volume(level).value_o
 
 nlohmann::json describe_hull(const ProgressiveHull& hull) {
   const std::string side(name_of(hull_side_names(), hull.side()));
-  const TriangleMesh finest_mesh = hull.original(), base_mesh = hull.base();
+  const TriangleMesh finest_mesh = without_unused_vertices(hull.original()), base_mesh = hull.base();
   const double original = volume_of(finest_mesh), base = volume_of(base_mesh);
   say_fact("kind", "{} progressive hull", side);
-  say_fact("original", "{} faces, {} vertices, volume {:.9g}", grouped(hull.original_face_count()),
-           grouped(hull.original_vertex_count()), original);
+  const std::string finest = described_finest_level(hull.finest_level());
+  say_fact(finest.empty() ? "original" : "finest level", "{}, {}, volume {:.9g}{}",
+           counted(finest_mesh.face_count(), "face"), counted(finest_mesh.vertex_count(), "vertex", "vertices"),
+           original, finest.empty() ? "" : fmt::format(": {}, not the input itself", finest));
   const Box box = finite_bounding_box(finest_mesh);
   print_box(box);
-  const std::string finest = described_finest_level(hull.finest_level());
-  if (!finest.empty()) say_fact("finest level", "{}, not the input itself", finest);
-  say_fact("coarsest", "{} faces, volume {:.9g}, void {}{}", grouped(hull.base_face_count()), base,
+  say_fact("coarsest", "{}, volume {:.9g}, void {}{}", counted(hull.base_face_count(), "face"), base,
            percent_text(base / original - 1, 3), finest.empty() ? "" : " of the finest level");
   say_fact("splits", "{}", grouped(hull.splits().size()));
   nlohmann::json json{
       {"side", side},
       {"finest_level", name_of(finest_level_names(), hull.finest_level())},
       {"original",
-       {{"faces", hull.original_face_count()}, {"vertices", hull.original_vertex_count()}, {"volume", original}}},
+       {{"faces", finest_mesh.face_count()}, {"vertices", finest_mesh.vertex_count()}, {"volume", original}}},
       {"base", {{"faces", hull.base_face_count()}, {"volume", base}, {"void_ratio", base / original - 1}}},
       {"splits", hull.splits().size()}};
   add_box(json, box);
