@@ -17,7 +17,7 @@ const OutputKind& inside_outputs() {
 PointAnswers ask(const QueryIndex& index, const std::vector<Vec3>& points, const BatchOptions& batch) {
   const std::vector<bool> inside = contains(index, points, batch);
   const auto count = static_cast<std::size_t>(std::ranges::count(inside, true));
-  const double share = points.empty() ? 0 : static_cast<double>(count) / static_cast<double>(points.size());
+  const double share = static_cast<double>(count) / static_cast<double>(points.size());
   return {fmt::format("{} of {} inside ({:.2f} %)", grouped(count), counted(points.size(), "point"), 100 * share),
           {{"inside", count}},
           [inside](const auto& file) { write_inside(file, inside); }};

@@ -36,14 +36,11 @@ std::string text_of(const ClosestPoint& closest) {
 }
 
 PointAnswers answers(std::vector<ClosestPoint> distances) {
-  PointAnswers answers{"no points", nlohmann::json::object(),
-                       [distances](const auto& file) { write_distances(file, distances); }};
-  if (distances.empty()) return answers;
   const auto [least, greatest] = std::ranges::minmax(distances, {}, &ClosestPoint::distance);
-  answers.summary = fmt::format("{} at distances from {} to {}", counted(distances.size(), "point"), text_of(least),
-                                text_of(greatest));
-  answers.facts = {{"least_distance", least.distance}, {"greatest_distance", greatest.distance}};
-  return answers;
+  return {fmt::format("{} at distances from {} to {}", counted(distances.size(), "point"), text_of(least),
+                      text_of(greatest)),
+          {{"least_distance", least.distance}, {"greatest_distance", greatest.distance}},
+          [distances = std::move(distances)](const auto& file) { write_distances(file, distances); }};
 }
 
 }  // namespace

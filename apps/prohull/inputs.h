@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -62,8 +63,18 @@ class MeshUnit {
   double metres_;  ///< of the unit; 0: not known
 };
 
+/// The name of an input in messages: that of "-" is "standard input".
+std::string input_name(const std::filesystem::path& path);
+
 /// The bytes of a file, or of standard input for "-". Throws InputError(CannotRead).
 std::string read_bytes(const std::filesystem::path& path);
+
+/// The rows of a file of queries. Throws InputError(Malformed) if there are none: `what` would have no answers.
+template <class Row>
+std::vector<Row> require_some(std::vector<Row> rows, std::string_view what, const std::filesystem::path& path) {
+  if (rows.empty()) throw InputError(Defect::Malformed, input_name(path) + ": there are no " + std::string(what));
+  return rows;
+}
 
 /// read_mesh of a file, or of standard input for "-"; ended by Ctrl-C.
 TriangleMesh read_input(const std::filesystem::path& path, const InputOptions& options = {},
@@ -75,9 +86,6 @@ MeshOrHull read_mesh_or_hull(const std::filesystem::path& path, const InputOptio
                              NonFinite non_finite = NonFinite::Refuse);
 
 ProgressiveHull read_hull(const std::filesystem::path& path);
-
-/// The name of an input in messages: that of "-" is "standard input".
-std::string input_name(const std::filesystem::path& path);
 
 /// work(); what InputError it throws then names the file.
 template <class Work>

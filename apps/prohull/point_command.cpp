@@ -18,7 +18,14 @@ std::vector<Vec3> make_points(const PointOptions& options, const AskedMesh& aske
     require_available(options.random.count, "random points", options.bytes_per_point);
     return random_points(asked.box(), options.random.count, options.random.seed);
   }
-  return read_points(read_bytes(options.points), input_name(options.points));
+  return require_some(read_points(read_bytes(options.points), input_name(options.points)), "points", options.points);
+}
+
+/// All but the filter, which needs two hulls: these commands take one.
+std::vector<std::string_view> engines() {
+  std::vector<std::string_view> names(hull_engine_names().begin(), hull_engine_names().end());
+  std::erase(names, name_of(prohull::engine_names(), Engine::Filter));
+  return names;
 }
 
 }  // namespace
@@ -36,7 +43,7 @@ void add_point_options(CLI::App& command, PointOptions& options, const OutputKin
   add_random_queries(command, points, options.random, "points",
                      "They are spread evenly over the bounding box of the mesh.");
   points.require_option(1);
-  add_engine_option(command, options.engine, hull_engine_names());
+  add_engine_option(command, options.engine, engines());
   add_threads_option(command, options.threads, "The answers are the same for any number.");
   add_report_option(command, options.report);
 }

@@ -72,10 +72,12 @@ Suffixes check_outputs(const QueryOptions& options) {
 }
 
 Queries make_queries(const QueryOptions& options, const AskedMesh& asked) {
-  const auto name = [](const std::filesystem::path& path) { return std::filesystem::path(input_name(path)); };
-  if (!options.segments.empty()) return read_segments(read_bytes(options.segments), name(options.segments));
-  if (!options.rays.empty()) return read_rays(read_bytes(options.rays), name(options.rays));
-  if (!options.triangles.empty()) return read_triangles(read_bytes(options.triangles), name(options.triangles));
+  const auto read = [](auto reader, std::string_view what, const std::filesystem::path& path) {
+    return require_some(reader(read_bytes(path), input_name(path)), what, path);
+  };
+  if (!options.segments.empty()) return read(read_segments, "segments", options.segments);
+  if (!options.rays.empty()) return read(read_rays, "rays", options.rays);
+  if (!options.triangles.empty()) return read(read_triangles, "triangles", options.triangles);
   constexpr double kBytesPerSegment = 90;  // measured, with few hits
   require_available(options.random.count, "random segments", kBytesPerSegment);
   return random_segments(asked.box(), options.random.count, options.random.seed);

@@ -170,14 +170,16 @@ Parameter rounded_parameter(const DirectedLine& line, const Triangle& face) {
   return {t, error};
 }
 
+/// Never -0.
+double within(double t, const DirectedLine& line) { return std::clamp(t, 0.0, line.t_end) + 0.0; }
+
 /// What is shown of the rounded parameter.
 Parameter shown(const Parameter& rounded, const DirectedLine& line, const Triangle& face) {
   // Beyond this the rounded t is not worth showing: all but parallel to the plane, or huge coordinates.
   constexpr double kGoodEnough = 0x1p-30;
-  if (rounded.error < kGoodEnough * std::max(1.0, std::abs(rounded.t)))
-    return {std::clamp(rounded.t, 0.0, line.t_end), rounded.error};
+  if (rounded.error < kGoodEnough * std::max(1.0, std::abs(rounded.t))) return {within(rounded.t, line), rounded.error};
   const double exact = exact_parameter(line, face);
-  return {std::clamp(exact, 0.0, line.t_end), 2 * line_filter::kEpsilon * std::abs(exact)};
+  return {within(exact, line), 2 * line_filter::kEpsilon * std::abs(exact)};
 }
 
 }  // namespace

@@ -433,6 +433,16 @@ says err "what a pose is" "x,y,z,qw,qx,qy,qz"
 expect 2 "collide: a mirror" $prohull collide octahedron.off octahedron.off --pose 1,0,0,0,0,1,0,0,0,0,-1,0
 says err "rigid" "not rigid"
 printf '1,0,0,1,0,0,0\n1,0,0,0,0,0,0\n' >bad.csv
+echo x,y,z,qw,qx,qy,qz >names.csv
+for file in /dev/null names.csv; do
+  expect 3 "collide: no poses in $file" $prohull collide octahedron.off octahedron.off --poses $file
+  says err "collide: no poses in $file" "$file: there are no poses"
+done
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >leaf.off
+expect 0 "collide: a sheet with itself" $prohull collide leaf.off leaf.off --pose 5,0,0,1,0,0,0
+is "collide: a sheet with itself, one note" test "$(grep -c 'is not closed' out)" -eq 1
+expect 2 "collide: inner hulls, conservatively" $prohull collide inner.phull rock.ply --conservative
+says err "collide: inner hulls, conservatively" "inner.phull: the hulls are inner ones"
 expect 3 "collide: bad poses" $prohull collide octahedron.off octahedron.off --poses bad.csv
 says err "the line" "bad.csv: line 2"
 
@@ -457,6 +467,9 @@ printf '0,0,0,1,1,1\n1,2,3,1,2,3\n' >point.csv
 bad_query 3 "no length" "point.csv: line 2: the segment's ends are equal" unit.off --segments point.csv
 head -c 1000 random.npy >truncated.npy
 bad_query 3 "truncated .npy" "truncated.npy: byte 128: the file ends after 18 of 2000 rows" unit.off --segments truncated.npy
+for kind in segments rays triangles; do
+  bad_query 3 "no $kind" "/dev/null: there are no $kind" unit.off --$kind /dev/null
+done
 bad_query 3 "missing segments" "nowhere.npy: cannot read" unit.off --segments nowhere.npy
 bad_query 3 "unknown format of segments" "rock.phull: unknown format" unit.off --segments rock.phull
 bad_query 3 "missing mesh" "nowhere.off: cannot read" nowhere.off --segments three.csv
@@ -507,6 +520,10 @@ for command in contains distance; do
   says err "$command without points" "--points"
   expect 3 "$command of no point" $prohull $command unit.off --points nan.csv -o bad_points.csv
   says err "$command of no point" "nan.csv: line 1: "
+  expect 3 "$command of an empty file" $prohull $command unit.off --points /dev/null -o bad_points.csv
+  says err "$command of an empty file" "/dev/null: there are no points"
+  expect 2 "$command by a filter" $prohull $command rock.phull --random 10 --engine filter -o bad_points.csv
+  says err "$command by a filter" "--engine must be auto, bvh, brute, refinement, paper-refinement or walk, not 'filter'"
   expect 3 "$command of no faces" $prohull $command empty.off --points points.csv -o bad_points.csv
   says err "$command of no faces" "empty.off: it has no faces"
 done
@@ -704,7 +721,12 @@ expect 0 "a sheet, by levels" $prohull build sheet.off --faces 200 -o wrapped.pl
 says out "a sheet, by levels" "its finest level is a wrap of the input, not the input itself"
 expect 0 "its levels, verified" $prohull verify wrapped.phull sheet.off
 expect 0 "its levels, described" $prohull info wrapped.phull --report wrapped.json
-says out "its levels, described" "finest level   a wrap of the input, not the input itself"
+says out "its levels, described" " vertices, volume "
+says out "its levels, described" ": a wrap of the input, not the input itself"
+says_not out "its levels, described" "original"
+expect 0 "levels with vertices that no face uses" $prohull info capped.phull
+is "levels with vertices that no face uses" awk '/finest level/ { gsub(",", ""); faces = $3; vertices = $5 }
+  END { exit !(faces > 0 && vertices == 2 + faces / 2) }' out
 says wrapped.json "report: finest level" '"finest_level": "wrap"'
 expect 0 "a wrap of a closed mesh, by levels" $prohull build knot.ply --repair wrap --faces 200 -o wrapped.ply --hierarchy wrapped_knot.phull --report wrapped.json
 says out "a wrap of a closed mesh, by levels" "certified: yes"

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <random>
 
@@ -181,6 +182,15 @@ TEST(Crossing, IsAtAFiniteTWhereTheLineAllButRunsInTheFace) {
   const DirectedLine line(Ray{start, {0.17573593128807152, 0.42426406871192845, 0}});
   ASSERT_NE(crossing(line, face), Crossing::None);
   EXPECT_EQ(parameter(line, face).t, 0);
+}
+
+TEST(Crossing, HasNoNegativeZero) {
+  const Triangle face{{0, 0, 1}, {0, 3, 1}, {3, 0, 1}};
+  for (const double z : {-1.0, 1.0}) {
+    const DirectedLine line(Ray{{1, 1, 1}, {0, 0, z}});
+    EXPECT_EQ(parameter(line, face).t, 0);
+    EXPECT_FALSE(std::signbit(parameter(line, face).t)) << z;
+  }
 }
 
 }  // namespace
