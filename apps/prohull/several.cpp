@@ -45,7 +45,10 @@ std::vector<fs::path> mesh_files(const std::vector<fs::path>& named) {
 
 fs::path named_after(const fs::path& pattern, const fs::path& in) {
   std::string name = pattern.string();
-  if (const auto at = name.find(kNameInName); at != std::string::npos)
+  const auto at = name.find(kNameInName);
+  if (at != std::string::npos && is_standard_stream(in))
+    refuse(fmt::format("{}: standard input has no name that could stand there; name the file to write", name));
+  if (at != std::string::npos)
     name.replace(at, kNameInName.size(), (in.extension() == ".gz" ? in.stem().stem() : in.stem()).string());
   return name;
 }

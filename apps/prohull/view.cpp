@@ -144,12 +144,14 @@ void add_view(CLI::App& app, Run& run) {
   add_value(command, "-o,--out", options->out, "OUT.html",
             "File for the page, .html. With - it goes to standard output.")
       ->required();
-  add_value(command, "--original", options->original, "M",
-            "Mesh that each IN is a hull of. The page then tells whether it encloses that mesh, how far it is from it "
-            "and where. Without this option, a .phull file is compared with its own finest level.");
+  CLI::Option* const original = add_value(
+      command, "--original", options->original, "M",
+      "Mesh that each IN is a hull of. The page then tells whether it encloses that mesh, how far it is from it "
+      "and where. Without this option, a .phull file is compared with its own finest level.");
   add_format_option(command, options->input);
   add_package_path_option(command, options->robots.package_paths);
   add_unit_options(command, options->original_input, "M (the same as `prohull build` was given for it)");
+  for (const char* const option : {"--scale", "--unit"}) command.get_option(option)->needs(original);
   add_choice(command, "--side", options->side, hull_side_names(),
              "Side on which the hulls lie. With inner, M should enclose IN. A .phull file knows its side.");
   command.add_flag("--union", options->is_union,

@@ -169,6 +169,9 @@ says err "one name for two" "as in -o '{name}.stl', or end -o in / for a folder"
 absent one.stl "one name for two"
 expect 2 "one report for two" $prohull build parts -o hulls/ --report parts/r.json
 says err "one report for two" "as in --report 'parts/{name}.json'"
+expect 2 "a name of standard input" sh -c "$prohull build parts/*.ply - -o hulls/ --faces 30 <four.off"
+says err "a name of standard input" "hulls/{name}.stl: standard input has no name that could stand there"
+absent "hulls/-*" "a name of standard input"
 expect 2 "one name for two hulls of each" $prohull build parts -o 'hulls/{name}.stl' --faces 20,12
 says err "one name for two hulls of each" "as in hulls/{name}_{faces}.stl"
 is "one name for two hulls of each: said once" test "$(wc -l <err)" = 1

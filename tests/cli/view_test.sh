@@ -27,6 +27,11 @@ expect 3 "nothing finite" "$prohull" view nan.obj -o nan.html
 says err "nothing finite" "nan.obj: it has no finite face to show"
 expect 0 "units" "$prohull" view box.stl --original box.stl --unit mm -o units.html
 says units.html "units" '"unit":"m"'
+for option in "--unit mm" "--scale 2"; do
+  expect 2 "$option of nothing" "$prohull" view box.stl $option -o nothing.html
+  says err "$option of nothing" "--original"
+done
+absent nothing.html "a unit of nothing"
 expect 0 "the same page twice" "$prohull" view box.stl --original box.stl --unit mm -o again.html --threads 1
 is "the same page twice" cmp units.html again.html
 
