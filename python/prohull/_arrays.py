@@ -158,6 +158,11 @@ def is_mesh(given: Any) -> bool:
     return isinstance(given, (str, os.PathLike)) or arrays_of_mesh(given) is not None
 
 
+def counted(number: int, one: str, many: str = "") -> str:
+    """For representations: "1 face", "12 faces"."""
+    return f"{number:,} {one if number == 1 else many or one + 's'}"
+
+
 def described(given: Any) -> str:
     """For messages about what was handed over."""
     if isinstance(given, (str, os.PathLike, int, float)):

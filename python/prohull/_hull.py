@@ -221,8 +221,8 @@ class Hull(Mesh):
 
     def __repr__(self) -> str:
         void = "" if math.isnan(self.void_ratio) else f"void {100 * self.void_ratio:.3g} %, "
-        notes = {0: "", 1: ", 1 note"}.get(len(self.notes), f", {len(self.notes)} notes")
-        return (f"<prohull.Hull: {self.side}, {len(self.faces):,} faces, {void}"
+        notes = f", {_arrays.counted(len(self.notes), 'note')}" if self.notes else ""
+        return (f"<prohull.Hull: {self.side}, {_arrays.counted(len(self.faces), 'face')}, {void}"
                 f"{f'certified by {self.proof}' if self.certified else 'NOT CERTIFIED'}{notes}>")
 
     @property

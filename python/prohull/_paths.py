@@ -95,7 +95,7 @@ class PathChecker:
         return PathCheck(pairs=pairs, beyond_limits=beyond and BeyondLimits(*beyond), **facts)
 
     def __repr__(self) -> str:
-        return f"<prohull.robot.PathChecker: {len(self.pairs)} pairs of bodies>"
+        return f"<prohull.robot.PathChecker: {_arrays.counted(len(self.pairs), 'pair')} of bodies>"
 
 
 def path_rows(names: Sequence[str], joints: Optional[Sequence[str]], positions: Any, *others: Optional[ArrayLike]

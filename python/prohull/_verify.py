@@ -160,7 +160,8 @@ def distance_bounds(from_: MeshLike, to: MeshLike, *, relative_gap: float = 0.01
         are farther apart.
     progress: called as build() calls it, with the stage "measure".
 
-    Raises InputError if a mesh is empty or not finite.
+    Raises InputError if a mesh is empty or not finite, and for another relative_gap.
     """
-    lower, upper, _ = _prohull.distance(mesh_of(from_)._core, mesh_of(to)._core, relative_gap, progress)
+    gap = _arrays.not_negative("relative_gap", relative_gap)
+    lower, upper, _ = _prohull.distance(mesh_of(from_)._core, mesh_of(to)._core, gap, progress)
     return lower, upper

@@ -100,7 +100,7 @@ def build_folder(client: "distributed.Client", meshes: Union[Path, Sequence[Mesh
     suffix: ".ply", ".obj", ".off", ".stl" or ".glb", or ".phull" for all levels.
     progress: see Progress; None for none. If it returns False, KeyboardInterrupt is raised.
     options: other options of prohull.build(), by name. Unless given, `float32_coordinates` is True for .stl and .glb,
-        and `threads` is 1: start one worker for each core.
+        `levels` is True for .phull, and `threads` is 1: start one worker for each core.
 
     Raises InputError if `meshes` is no folder or is `out`, if names are not distinct or lead out of `out`, and for
     another suffix; TypeError for an option that build() does not have; OSError if `out` cannot be written.
@@ -417,7 +417,11 @@ def _checked(options: dict[str, Any], suffix: str) -> dict[str, Any]:
         raise InputError(f"suffix={suffix!r}: expected one of {', '.join(get_args(Suffix))}")
     if suffix.lower() == ".phull" and options.get("tight"):
         raise InputError("suffix='.phull': a tight hull has no levels; give another suffix or leave out tight")
-    return {"float32_coordinates": suffix.lower() in (".stl", ".glb"), "threads": 1, **options}
+    keeps_levels = suffix.lower() == ".phull"
+    if keeps_levels and not options.get("levels", True):
+        raise InputError("suffix='.phull': these files hold levels; give another suffix or leave out levels")
+    return {"float32_coordinates": suffix.lower() in (".stl", ".glb"), "threads": 1,
+            **({"levels": True} if keeps_levels else {}), **options}
 
 
 def _named(meshes: Any, out: pathlib.Path) -> dict[str, Any]:

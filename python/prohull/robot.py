@@ -161,7 +161,7 @@ class Check:
     def __repr__(self) -> str:
         failed = [link.name for link in self.links if not link.passes]
         result = f"{', '.join(failed)} fail" if failed else "all pass"
-        return f"<prohull.robot.Check: {len(self.links)} links, {result}>"
+        return f"<prohull.robot.Check: {_arrays.counted(len(self.links), 'link')}, {result}>"
 
 
 class PairProof(NamedTuple):
@@ -237,7 +237,7 @@ class Motion:
         return sum(pair.false_convex for pair in self.pairs)
 
     def __repr__(self) -> str:
-        return (f"<prohull.robot.Motion: {len(self.pairs)} pairs, false collisions: {self.false_hull} of hulls, "
+        return (f"<prohull.robot.Motion: {_arrays.counted(len(self.pairs), 'pair')}, false collisions: {self.false_hull} of hulls, "
                 f"{self.false_convex} of convex hulls; {self.missed} missed>")
 
 
@@ -322,7 +322,7 @@ class Hulls(Shown):
 
     def __repr__(self) -> str:
         count = sum(len(link.hulls) for link in self.links)
-        return (f"<prohull.robot.Hulls: {self.robot.name}, {count} hulls, "
+        return (f"<prohull.robot.Hulls: {self.robot.name}, {_arrays.counted(count, 'hull')}, "
                 f"{'all certified' if self.certified else 'NOT ALL CERTIFIED'}>")
 
 
@@ -527,7 +527,7 @@ class Robot(Shown):
         return self.picture() or None
 
     def __repr__(self) -> str:
-        return f"<prohull.robot.Robot: {self.name}, {len(self.links)} links, {len(self.joints)} joints>"
+        return f"<prohull.robot.Robot: {self.name}, {_arrays.counted(len(self.links), 'link')}, {_arrays.counted(len(self.joints), 'joint')}>"
 
     def _positions(self, positions: Positions) -> list[float]:
         """Of all joints."""

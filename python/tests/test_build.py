@@ -58,6 +58,8 @@ def test_several_budgets_give_a_list(pony):
 def test_distance_bound_holds_and_bounds_are_kept(pony):
     hull = prohull.build(pony, target_faces=500)
     lower, upper = prohull.distance_bounds(hull, pony)
+    with pytest.raises(prohull.InputError, match="relative_gap=-1: expected a number, at least 0"):
+        prohull.distance_bounds(hull, pony, relative_gap=-1)
     assert 0 < lower <= upper == hull.distance_bound <= 1.01 * lower
     near = prohull.build(pony, target_faces=500, max_distance=upper / 4)
     assert near.within_bounds and near.distance_bound <= upper / 4 and len(near.faces) > 500

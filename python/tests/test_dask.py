@@ -213,6 +213,14 @@ def test_meshes_may_be_objects(client, cube, tmp_path):
 
 
 @needs_dask
+def test_levels_of_a_convex_mesh(client, tmp_path):
+    ball = prohull.sample("sphere", 600)
+    rows = prohull.dask.build_folder(client, {"ball": ball}, tmp_path, suffix=".phull", target_faces=100, progress=None)
+    assert statuses(rows) == {"ball": "built"}
+    assert prohull.load(tmp_path / "ball.phull").levels
+
+
+@needs_dask
 @pytest.mark.parametrize("meshes, options, error, message", [
     ("nowhere", {}, prohull.InputError, "nowhere: no folder"),
     (["a/x.stl", "b/x.stl"], {}, prohull.InputError, "b/x.stl: another mesh is called x.stl"),
@@ -223,6 +231,7 @@ def test_meshes_may_be_objects(client, cube, tmp_path):
     ({}, {"target_faces": [100, 200]}, prohull.InputError, "expected one number"),
     ({"a/b": "x.stl", "./a/b": "x.stl"}, {}, prohull.InputError, "'./a/b' and 'a/b' are one name"),
     ({}, {"suffix": ".xyz"}, prohull.InputError, "suffix='.xyz': expected one of .ply"),
+    ({}, {"suffix": ".phull", "levels": False}, prohull.InputError, "these files hold levels"),
     ({}, {"suffix": ".phull", "tight": True}, prohull.InputError, "a tight hull has no levels"),
 ])
 def test_wrong_arguments_are_named(tmp_path, meshes, options, error, message):

@@ -43,4 +43,5 @@ def test_of_nothing_there_is_no_picture():
 def test_reprs_say_what_it_is(hull, cube):
     assert repr(prohull.Mesh(*cube)) == "<prohull.Mesh: 8 vertices, 12 faces, size 2 x 2 x 2>"
     assert repr(hull).startswith("<prohull.Hull: outer, 300 faces, void ") and repr(hull).endswith(" %, certified by replay>")
+    assert repr(prohull.Mesh(cube[0][:3], [[0, 1, 2]])).startswith("<prohull.Mesh: 3 vertices, 1 face, size ")
     assert repr(prohull.Mesh(np.zeros((0, 3)), np.zeros((0, 3), int))) == "<prohull.Mesh: 0 vertices, 0 faces, size 0>"
