@@ -50,12 +50,13 @@ class Collider:
 
     def __init__(self, mesh: MeshLike) -> None:
         """Builds the index of a mesh, as verify() takes it."""
-        self._given = mesh
-        self._levels = levels_of(mesh)
-        asked = mesh_of(mesh)._core if self._levels is None else None
-        with naming(mesh):
-            self._core = (_prohull.CollisionIndex(asked) if self._levels is None else
-                          _prohull.CollisionIndex(self._levels, False))
+        self._given, self._levels = mesh, levels_of(mesh)
+        if self._levels is None:
+            asked = mesh_of(mesh)._core
+            with naming(mesh):
+                self._core = _prohull.CollisionIndex(asked)
+        else:
+            self._core = _prohull.CollisionIndex(self._levels, False)
         self._hull: Optional[_prohull.CollisionIndex] = None  # of the levels; built when it is first asked
 
     def _index(self, conservative: bool) -> _prohull.CollisionIndex:
