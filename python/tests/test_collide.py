@@ -76,7 +76,7 @@ def test_a_file_of_levels_answers_for_its_original(tmp_path):
             may = file.collides(speck, poses, conservative=True)
             assert (may == coarse.collides(speck, poses, conservative=True)).all()
         else:
-            with pytest.raises(prohull.InputError, match="inner.phull: the hulls are inner ones"):
+            with pytest.raises(prohull.InputError, match="inner.phull: it holds inner hulls"):
                 file.collides(speck, poses, conservative=True)
 
 

@@ -228,8 +228,7 @@ CollisionIndex::CollisionIndex(const TriangleMesh& mesh, StandsFor what)
 
 CollisionIndex collision_index(const ProgressiveHull& levels, bool conservative) {
   if (conservative && levels.side() == HullSide::Inner)
-    throw InputError(Defect::InvalidOption,
-                     "the hulls are inner ones, which enclose nothing; conservative answers need outer ones");
+    throw InputError(Defect::InvalidOption, "it holds inner hulls; conservative answers need outer ones");
   return CollisionIndex(conservative ? levels.base() : levels.original());
 }
 

@@ -442,7 +442,7 @@ printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >leaf.off
 expect 0 "collide: a sheet with itself" $prohull collide leaf.off leaf.off --pose 5,0,0,1,0,0,0
 is "collide: a sheet with itself, one note" test "$(grep -c 'is not closed' out)" -eq 1
 expect 2 "collide: inner hulls, conservatively" $prohull collide inner.phull rock.ply --conservative
-says err "collide: inner hulls, conservatively" "inner.phull: the hulls are inner ones"
+says err "collide: inner hulls, conservatively" "inner.phull: it holds inner hulls"
 expect 3 "collide: bad poses" $prohull collide octahedron.off octahedron.off --poses bad.csv
 says err "the line" "bad.csv: line 2"
 
