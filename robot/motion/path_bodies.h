@@ -54,8 +54,8 @@ PathBody path_body(std::string name, std::optional<std::size_t> link, const Tria
 /// Two bodies, numbered as in PathBodies::bodies, the lower number first.
 using BodyPair = std::pair<std::size_t, std::size_t>;
 
-/// All pairs that may meet: neither links that a joint connects directly (JointPaths::are_adjacent), nor two meshes of the
-/// world, nor those to ignore. `links` are pairs of links, `bodies` pairs of names. Throws
+/// All pairs that may meet: neither links that a joint connects directly (JointPaths::are_adjacent), nor two meshes of
+/// the world, nor those to ignore. `links` are pairs of links, `bodies` pairs of names. Throws
 /// InputError(InvalidOption) for a name that no body has.
 std::vector<BodyPair> pairs_on_path(const Robot& robot, std::span<const PathBody> bodies,
                                     std::span<const LinkPair> links = {},

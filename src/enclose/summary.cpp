@@ -65,10 +65,10 @@ std::string described_topology(const TriangleMesh& hull) {
 
 std::string described_guards(const EnclosingHull& hull) {
   const ShapeGuards& guards = kRelaxedGuards[hull.relaxed_guards - 1];
-  return fmt::format("shape guards relaxed{}: normals may turn by {:.0f} degrees{}, step {} of {}",
-                     hull.mesh.face_count() <= hull.target_faces ? " to reach it" : "", guards.max_normal_deviation / kRadiansOfDegree,
-                     std::isfinite(guards.max_overhang) ? "" : " and spikes are allowed", hull.relaxed_guards,
-                     kRelaxedGuards.size());
+  return fmt::format(
+      "shape guards relaxed{}: normals may turn by {:.0f} degrees{}, step {} of {}",
+      hull.mesh.face_count() <= hull.target_faces ? " to reach it" : "", guards.max_normal_deviation / kRadiansOfDegree,
+      std::isfinite(guards.max_overhang) ? "" : " and spikes are allowed", hull.relaxed_guards, kRelaxedGuards.size());
 }
 
 std::string line_of_missed_bounds(const ToldHull& told) {
