@@ -104,13 +104,15 @@ void add_outside(const Polygon& polygon, const ConvexPiece& piece, std::vector<P
   const std::size_t before = result.size();
   Polygon rest = polygon;
   for (const Plane& plane : piece.planes) {
-    auto [outside, inside] = split(rest, plane);
-    if (inside.empty()) {
+    const auto is_outside = [&](const Vec3& p) { return plane.height(p) > 0; };
+    if (std::ranges::none_of(rest, is_outside)) continue;  // most planes
+    if (std::ranges::all_of(rest, is_outside)) {
       result.resize(before);
       result.push_back(polygon);
       return;
     }
-    if (!outside.empty()) result.push_back(std::move(outside));
+    auto [outside, inside] = split(rest, plane);
+    result.push_back(std::move(outside));
     rest = std::move(inside);
   }
 }
