@@ -38,8 +38,10 @@ void print_regions(const BuildOutcome& outcome, const Written& written) {
     if (region.max_distance == 0)
       say("  region {}: {}, kept: the hull has them with the same coordinates\n", region.name, faces);
     else
-      say("  region {}: {}, at most {:.4g} from the hull, proven; {:.4g} are allowed\n", region.name, faces,
-          rounded_up(written.regions[i].upper, 4), region.max_distance);
+      say("  region {}: {}, at most {:.4g} from the hull, proven; {}\n", region.name, faces,
+          rounded_up(written.regions[i].upper, 4),
+          std::isfinite(region.max_distance) ? fmt::format("{:.4g} are allowed", region.max_distance)
+                                             : "any distance is allowed");
   }
 }
 

@@ -240,7 +240,8 @@ int run_verify_folders(const VerifyOptions& options) {
         const VerifyOptions of_mesh = one(mesh);
         if (of_mesh.hull == options.hull)
           throw InputError(Defect::CannotRead,
-                           fmt::format("{}: {} has no hull of this name", mesh.string(), options.hull.string()));
+                           fmt::format("{}: {} has no mesh file of this name; give the two files, as for .phull files",
+                                       mesh.string(), options.hull.string()));
         const Judged judged = judge(of_mesh);
         const int code = judged.exit_code(of_mesh);
         return MeshOutcome{code, {table_row(judged, code)}, code == kDone};

@@ -51,15 +51,18 @@ view::ShownRobot read_robot(const ViewOptions& options, const std::filesystem::p
   return shown;
 }
 
+/// All files together.
+view::Shown read_parts(const ViewOptions& options) {
+  std::string name = shown_name(options.in.front(), options);
+  if (options.in.size() > 1) name += fmt::format(" and {} more", options.in.size() - 1);
+  Union found = read_union(options.in, options.input, "");
+  if (found.pieces.empty()) return {name, std::move(found.balls)};
+  if (found.balls.empty()) return {name, std::move(found.pieces)};
+  throw InputError(Defect::InvalidOption, name + ": a page shows pieces or spheres, but not both");
+}
+
 view::Shown read_shown(const ViewOptions& options, const std::filesystem::path& path) {
   const std::string name = shown_name(path, options);
-  if (options.is_union) {
-    Union found = read_union({path}, options.input, "");
-    if (found.pieces.empty()) return {name, std::move(found.balls)};
-    if (found.balls.empty()) return {name, std::move(found.pieces)};
-    throw InputError(Defect::InvalidOption,
-                     path.string() + ": a page shows pieces or spheres, but not both of one file");
-  }
   if (is_robot_file(path)) return {name, read_robot(options, path)};
   MeshOrHull read = read_mesh_or_hull(path, options.input, NonFinite::Keep);
   if (auto* const hull = std::get_if<ProgressiveHull>(&read)) return {name, std::move(*hull)};
@@ -67,6 +70,7 @@ view::Shown read_shown(const ViewOptions& options, const std::filesystem::path& 
 }
 
 std::vector<view::Shown> read_all_shown(const ViewOptions& options) {
+  if (options.is_union) return {read_parts(options)};
   std::vector<view::Shown> shown;
   for (const auto& path : options.in) {
     shown.push_back(read_shown(options, path));
@@ -109,7 +113,7 @@ void require_page(const std::filesystem::path& out) {
 namespace {
 
 int run_view(const ViewOptions& options) {
-  if (options.in.size() > view::kMostShown)
+  if (options.in.size() > view::kMostShown && !options.is_union)
     throw InputError(Defect::InvalidOption, fmt::format("a page shows {} files at most", view::kMostShown));
   require_page(options.out);
   std::vector<std::filesystem::path> inputs = options.in;

@@ -153,7 +153,7 @@ def most_steps(steps: Optional[int]) -> int:
 
 def distance_bounds(from_: MeshLike, to: MeshLike, *, relative_gap: float = 0.01,
                     progress: Optional[Progress] = None) -> tuple[float, float]:
-    """Returns two bounds of the largest distance of a point of one mesh from the other. The upper bound is proven.
+    """Returns two bounds of the largest distance of a point of one mesh from the other. Both are proven.
 
     from_, to: meshes, as verify() takes them. The result is in their unit.
     relative_gap: stops when upper <= (1 + relative_gap) lower, at least 0; or after a million steps, when the bounds

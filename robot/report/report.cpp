@@ -335,8 +335,8 @@ std::string date_text() {
   const char* const epoch = std::getenv("SOURCE_DATE_EPOCH");
   constexpr std::time_t kYear10000 = 253402300800;
   std::time_t asked = -1;
-  if (epoch) std::from_chars(epoch, epoch + std::strlen(epoch), asked);
-  const bool is_asked = asked >= 0 && asked < kYear10000;
+  const char* const end = epoch ? epoch + std::strlen(epoch) : nullptr;
+  const bool is_asked = epoch && std::from_chars(epoch, end, asked).ptr == end && asked >= 0 && asked < kYear10000;
   return fmt::format("{:%FT%TZ}", fmt::gmtime(is_asked ? asked : std::time(nullptr)));
 }
 

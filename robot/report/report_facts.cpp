@@ -94,8 +94,9 @@ Finding finding_of_checks(const Totals& totals) {
   if (totals.passed == totals.checked)
     return {true, fmt::format("The shipped collision geometry covers the visual geometry of {}.",
                               totals.checked == 1 ? "the one link" : fmt::format("all {} links", totals.checked))};
-  std::string text = fmt::format("The shipped collision geometry fails for {} of {}", totals.checked - totals.passed,
-                                 counted(totals.checked, "link"));
+  std::string text = fmt::format("The shipped collision geometry does not cover {} of {}",
+                                 totals.checked - totals.passed - totals.unchecked, counted(totals.checked, "link"));
+  if (totals.unchecked > 0) text += fmt::format(", and could not be checked for {}", totals.unchecked);
   if (totals.sticks_out_at_most > 0)
     text += fmt::format("; what sticks out farthest does so by {}",
                         range_text(totals.sticks_out_at_least, totals.sticks_out_at_most));
@@ -133,6 +134,7 @@ void count_check(const LinkCheck& check, double allow, Totals& totals) {
     ++totals.passed;
     return;
   }
+  totals.unchecked += check.verdict == CheckVerdict::Missing;
   totals.sticks_out_at_least = std::max(totals.sticks_out_at_least, check.sticks_out_at_least);
   totals.sticks_out_at_most = std::max(totals.sticks_out_at_most, check.sticks_out_at_most);
 }

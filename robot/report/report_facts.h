@@ -73,6 +73,7 @@ struct Totals {
   std::size_t pieces = 0, balls = 0;                 ///< of the links that have these in place of hulls
   std::optional<double> volume_ratio, convex_ratio;  ///< medians: hull / sealed original, hull / convex hull
   std::size_t checked = 0, passed = 0;               ///< links with visual geometry, and those that pass the check
+  std::size_t unchecked = 0;                         ///< of the others, those that could not be checked
   std::optional<double> shipped_ratio;               ///< median: shipped collision geometry / sealed original
   double sticks_out_at_least = 0, sticks_out_at_most = 0;  ///< the greatest of the links that do not pass
   std::size_t failures = 0, looks = 0;                     ///< marks

@@ -9,11 +9,26 @@
 #include "verify/nearest_face.h"
 
 namespace prohull {
+namespace {
+
+/// Whether every triangle of the part is one of the mesh, in the same order: a hull that is the mesh, or some of its
+/// components.
+bool is_part_of(const TriangleMesh& part, const TriangleMesh& mesh) {
+  std::uint32_t found = 0;
+  for (const FaceId f : mesh.triangles.ids()) {
+    if (found == part.face_count()) break;
+    const Triangle s = mesh.triangle(f), t = part.triangle(FaceId{found});
+    found += s.a == t.a && s.b == t.b && s.c == t.c;
+  }
+  return found == part.face_count();
+}
+
+}  // namespace
 
 DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to, const DistanceOptions& options) {
   verify::require_distances(from);
   verify::require_distances(to);
-  if (has_triangles_of(from, to)) return {};
+  if (is_part_of(from, to)) return {};
   const double largest = std::max(verify::largest_coordinate(from), verify::largest_coordinate(to));
   if (const double unit = verify::usable_unit(largest); unit != 1)
     return verify::unscaled(distance_bounds(verify::scaled(from, unit), verify::scaled(to, unit), options), unit);

@@ -192,7 +192,7 @@ mv pairs/other.ply pairs/three.ply
 rm pairs/two.ply
 cp parts/one.ply parts/three.ply
 expect 3 "a mesh without a hull" $prohull verify pairs parts
-says err "a mesh without a hull" "parts/two.ply.gz: pairs has no hull of this name"
+says err "a mesh without a hull" "parts/two.ply.gz: pairs has no mesh file of this name"
 says out "a hull that is the mesh" "2 of 3 meshes: as asked"
 rm parts/three.ply
 expect 2 "one report for two" $prohull verify pairs parts --report r.json

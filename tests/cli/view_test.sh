@@ -35,6 +35,12 @@ absent nothing.html "a unit of nothing"
 expect 0 "the same page twice" "$prohull" view box.stl --original box.stl --unit mm -o again.html --threads 1
 is "the same page twice" cmp units.html again.html
 
+"$prohull" sample bracket -o bracket.ply --faces 300 >/dev/null
+"$prohull" convex bracket.ply --pieces 3 -o piece.stl >/dev/null
+expect 0 "pieces of several files" "$prohull" view --union piece_*.stl --original bracket.ply -o union.html
+says union.html "pieces of several files" '"union":"3 pieces"'
+says union.html "pieces of several files" '"verification":{"encloses":true'
+
 # --- the page that `prohull urdf` writes beside its report ---
 expect 0 "sample" "$prohull" sample gripper -o gripper
 robot="$prohull urdf gripper/gripper.urdf --faces 60 --configurations 5 --no-cache"

@@ -67,6 +67,9 @@ TEST(DistanceBounds, OfAMeshFromItselfHaveNoFarthestPoint) {
   const DistanceBounds bounds = distance_bounds(mesh, mesh);
   EXPECT_EQ(bounds.lower, 0);
   EXPECT_EQ(bounds.farthest, (Vec3{}));
+  TriangleMesh more = box({2, 2, 2}, {3, 3, 3});
+  append(more, mesh);
+  EXPECT_EQ(distance_bounds(mesh, more).upper, 0) << "it is a component";
 }
 
 TEST(DistanceBounds, HoldTheSampledDistanceOfHulls) {

@@ -196,7 +196,7 @@ export class Panel {
             : colliding.length === 0 ? '✓ No links collide.' : `✗ ${counted(colliding.length, 'pair collides', 'pairs collide')}:`),
         el('ul', {class: 'pairs'}, ...colliding.map(([a, b]) => el('li', {}, `${names[a]} – ${names[b]}`))),
         el('p', {class: 'soft'}, `${counted(pairs.length, 'pair', 'pairs')} of links compared as they are drawn. Left out: ` +
-            (object.disabled_by_file ? 'the pairs that the SRDF file disables.' : 'neighbours, and pairs that touch in every position.') +
+            (object.disabled_by_file ? 'the pairs that the SRDF file disables.' : 'neighbours, and pairs that touch in nearly all of 200 random positions.') +
             (this.view.hulls.some(({robot}) => !robot) ? ' Meshes beside the robot are not compared.' : '')));
   }
 
