@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <optional>
 #include <random>
 #include <span>
@@ -74,6 +75,7 @@ class CoveredFaces {
   /// All of the face.
   bool contain(FaceIndex f) {
     if (beyond_.empty()) follow_edges();
+    if (are_sheets_) return true;
     f = sheets_.find(f);
     if (all_[f] == Answer::NotAsked) {
       Arrangement pieces(surface_.faces[f], surface_.axis[f], random_, steps_);
@@ -118,6 +120,26 @@ class CoveredFaces {
       if (side(surface_.faces[f], s) == Side::On && turn(axis, p, q, r) * turn(axis, p, q, s) < 0)
         beyond_[f][e] = g, beyond_[g][d] = f;
     }
+    are_sheets_ = self_intersections_ > 0 && are_outward_sheets(sides);
+  }
+
+  /// Whether each component is_outward_sheet without self-intersections, as of parts that only pass through each other.
+  /// Then each winds once around what is beside its faces on their inner side, and none winds around anything less than
+  /// zero times.
+  bool are_outward_sheets(const std::vector<FaceEdge>& sides) const {
+    DisjointSets components(surface_.faces.size());
+    for (std::size_t i = 1; i < sides.size(); ++i)
+      if (sides[i].key == sides[i - 1].key) components.join(sides[i].face, sides[i - 1].face);
+    for (FaceIndex f = 0; f < meets_.size(); ++f)
+      for (const FaceIndex g : meets_[f])
+        if (components.find(f) == components.find(g)) return false;
+    std::map<FaceIndex, TriangleMesh> meshes;
+    for (FaceIndex f = 0; f < surface_.faces.size(); ++f) {
+      TriangleMesh& mesh = meshes[components.find(f)];
+      const auto [a, b, c] = corners_of(surface_.faces[f]);
+      mesh.triangles.push_back({mesh.positions.push_back(a), mesh.positions.push_back(b), mesh.positions.push_back(c)});
+    }
+    return std::ranges::all_of(meshes, [](const auto& mesh) { return is_outward_sheet(mesh.second); });
   }
 
   std::vector<Triangle> cutters_of(FaceIndex f) const {
@@ -131,6 +153,7 @@ class CoveredFaces {
   const Surface& surface_;
   Steps& steps_;
   std::vector<std::vector<FaceIndex>> meets_;
+  bool are_sheets_ = false;
   DisjointSets sheets_;                           // of faces that have the same regions beside them
   std::vector<Answer> all_;                       // by representative
   std::vector<std::array<FaceIndex, 3>> beyond_;  // each edge: the face that goes on in the plane, or the face itself

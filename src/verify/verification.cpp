@@ -121,8 +121,7 @@ class Judge {
   }
 
   void enclose_solid(verify::KnownSolid& hull) {
-    const verify::Surface &inside = inner(hull).surface(), &outside = outer(hull).surface();
-    found.encloses_solid = take(verify::verify_enclosure(inside, outside, next_step()),
+    found.encloses_solid = take(enclosure_of_solids(hull),
                                 is_outer() ? "a part of the solid that the original bounds lies outside of the hull"
                                            : "a part of the solid that the hull bounds lies outside of the original");
     if (asks_triangles() && any_triangle_is_outside()) found.covers_triangles = Answer::No;
@@ -214,6 +213,14 @@ class Judge {
     if (!stand_in_ || !is_outer()) return found.faces_outside > 0;
     return std::ranges::any_of(found.worst,
                                [&](const Offender& o) { return index(o.face) < original_.mesh().face_count(); });
+  }
+
+  EnclosureReport enclosure_of_solids(verify::KnownSolid& hull) {
+    const EnclosureOptions how = next_step();
+    EnclosureReport of_itself;
+    of_itself.encloses = true;
+    if (has_triangles_of(hull.mesh(), solid())) return of_itself;
+    return verify::verify_enclosure(inner(hull).surface(), outer(hull).surface(), how);
   }
 
   static constexpr std::string_view kLeavesTriangles = "triangles of the original lie outside of the hull, or in part";

@@ -444,9 +444,10 @@ $prohull sample knot -o knot.obj --faces 200 >out
 awk '/^v / { print "v", $2 + 0.05, $3, $4 }' knot.obj >moved.obj
 awk '/^f / { print "f", $2 + '"$(grep -c '^v ' knot.obj)"', $3 + '"$(grep -c '^v ' knot.obj)"', $4 + '"$(grep -c '^v ' knot.obj)"' }' knot.obj >faces.obj
 { grep '^v ' knot.obj; cat moved.obj; grep '^f ' knot.obj; cat faces.obj; } >tangled.obj
-expect 0 "as many steps as it takes" $prohull verify tangled.obj tangled.obj
-expect 4 "too few steps" $prohull verify tangled.obj tangled.obj --steps 1 --report verify.json
-says out "too few steps" "UNDECIDED: tangled.obj may enclose tangled.obj: the search was ended before "
+expect 0 "itself" $prohull verify tangled.obj tangled.obj --steps 1
+expect 0 "as many steps as it takes" $prohull verify tangled.obj knot.obj
+expect 4 "too few steps" $prohull verify tangled.obj knot.obj --steps 1 --report verify.json
+says out "too few steps" "UNDECIDED: tangled.obj may enclose knot.obj: the search was ended before "
 says verify.json "too few steps" '"encloses_solid": null'
 says verify.json "too few steps" '"certified": false'
 $prohull sample sphere -o ball.obj --faces 300 >out

@@ -116,6 +116,33 @@ TEST(VerifyHull, SaysYesToCavitiesAndToPartsThatOverlap) {
   EXPECT_TRUE(verify_hull(overlapping, overlapping).encloses);
 }
 
+/// Slabs that all pass through each other.
+TriangleMesh star_of_slabs(int slabs) {
+  TriangleMesh all;
+  for (int i = 0; i < slabs; ++i) {
+    TriangleMesh slab = box({-3, -0.2, 0}, {3, 0.2, 1});
+    const double turn = 3.1 * i / slabs;
+    for (Vec3& p : slab.positions)
+      p = {p.x * std::cos(turn) - p.y * std::sin(turn), p.x * std::sin(turn) + p.y * std::cos(turn), p.z};
+    append(all, slab);
+  }
+  return all;
+}
+
+TEST(VerifyHull, OfManyPartsThatPassThroughEachOtherTakesFewSteps) {
+  const TriangleMesh star = star_of_slabs(40);
+  const Verification same = verify_hull(star, star, HullSide::Outer, {.max_steps = 1000});
+  EXPECT_TRUE(same.certified) << same.why_not << ": a mesh of outward components encloses and covers itself";
+  EXPECT_TRUE(verify_cover(star_of_slabs(20), star, {.max_steps = 1000}).encloses) << "every other slab";
+
+  TriangleMesh turned = star;
+  for (std::size_t f = 0; f < 12; ++f) {
+    auto& [a, b, c] = turned.triangles[FaceId(std::uint32_t(f))];
+    std::swap(b, c);
+  }
+  EXPECT_FALSE(verify_cover(star_of_slabs(40), turned).encloses) << "the slab that is inside out digs into the others";
+}
+
 TEST(VerifyHull, OfAnOpenOriginalEveryTriangleMustBeCovered) {
   const Verification found = verify_hull(kLarge, without_a_face(kSmall));
   EXPECT_TRUE(found.encloses);
