@@ -225,23 +225,19 @@ int run_verify_folders(const VerifyOptions& options) {
   std::map<std::string, std::filesystem::path> hulls;
   const std::vector<std::filesystem::path> meshes = mesh_files({options.original});
   for (const auto& hull : mesh_files({options.hull})) hulls[named_after("{name}", hull).string()] = hull;
-  const auto one = [&](const std::filesystem::path& mesh) {
-    VerifyOptions of_mesh = options;
-    of_mesh.original = mesh, of_mesh.report = named_after(options.report, mesh);
-    if (const auto hull = hulls.extract(named_after("{name}", mesh).string())) of_mesh.hull = hull.mapped();
-    return of_mesh;
-  };
   check_outputs(meshes, [&](const auto& mesh) {
     return NamedOutputs{{"--report", named_after(options.report, mesh)}};
   });
   const int exit_code = run_each(
       meshes, fmt::format("{:>11}  {:>9}  {:>8}  {}", "faces", "hull", "void", "enclosed"),
       [&](const std::filesystem::path& mesh) {
-        const VerifyOptions of_mesh = one(mesh);
-        if (of_mesh.hull == options.hull)
+        const auto hull = hulls.extract(named_after("{name}", mesh).string());
+        if (hull.empty())
           throw InputError(Defect::CannotRead,
                            fmt::format("{}: {} has no mesh file of this name; give the two files, as for .phull files",
                                        mesh.string(), options.hull.string()));
+        VerifyOptions of_mesh = options;
+        of_mesh.hull = hull.mapped(), of_mesh.original = mesh, of_mesh.report = named_after(options.report, mesh);
         const Judged judged = judge(of_mesh);
         const int code = judged.exit_code(of_mesh);
         return MeshOutcome{code, {table_row(judged, code)}, code == kDone};
