@@ -12,16 +12,14 @@
 namespace prohull {
 namespace {
 
-// Hulls of four robot parts that keep 1 or 3 % of the diagonal have fewest faces, or up to 1.14 times as many, from a
-// spacing of half of that without closing: 1.03 to 2 times by a third, 1 to 4.4 times by two thirds.
-constexpr WrapKind kBoundedWrap{3.5, 0.3, 0};
-constexpr double kBoundedSpacing = 0.5;  // of the largest distance
+// Wraps of three robots' parts have 17, 21 and 40 % of the faces that cells of one size would give. Of 12 parts at 1
+// and 3 % of the diagonal, hulls of those have 1.09 times the faces, and took 1.25 times as long. By a flatness of
+// 0.12, wraps of two parts leave triangles uncovered.
+constexpr WrapKind kBoundedWrap{3.5, 0.3, 0, 0.08};
 
-// Wraps of three robots' parts have 17, 21 and 40 % of the faces that cells of one size would give, and hulls of them
-// as few. By 0.12, wraps of two parts leave triangles uncovered.
-constexpr WrapKind kCloseWrap{3.5, 0.3, 0, 0.08};
-
-constexpr double kCloseSpacing = 2.0 / 3;  // of the largest distance
+// Of the same parts, hulls have 1.06 to 1.23 times the faces by 0.45, 0.5, 0.55, 0.65 and 0.7.
+constexpr double kBoundedSpacing = 0.6;    // of the largest distance
+constexpr double kCloseSpacing = 2.0 / 3;  // the same where it is small
 constexpr double kReach = 0.6;             // of most vertices of a wrap from the triangles, in spacings
 
 constexpr double kFineWrap = 256;  // to the diagonal; finer ones take ten seconds and more
@@ -125,7 +123,7 @@ void Candidates::plan_close_wraps() {
       const std::span<const SolidId> made = solids.wraps(target_faces_);
       const bool is_made = !made.empty() && solids[made.back()].wrap_spacing == spacing;
       if (is_made && kNearer * ranking.best().hull.excess > 1) return std::nullopt;
-      const auto id = is_made ? std::optional(made.back()) : wrap(kCloseWrap, spacing, solids);
+      const auto id = is_made ? std::optional(made.back()) : wrap(kBoundedWrap, spacing, solids);
       return id ? std::optional(within(*id, distance, solids)) : std::nullopt;
     });
   };
@@ -189,10 +187,9 @@ bool Candidates::may_be_better(const LooseWrap& next, const Ranking& ranking, co
 }
 
 // A hull of a wrap that keeps the bounds has at most kMostReduced times fewer faces than the wrap. Where another hull
-// keeps them with fewer still, the wrap is left out: of 10 robots' parts at 1 % of the diagonal, it had a better hull
-// for 2, and took 2 to 10 times as long.
+// keeps them with fewer still, the wrap is left out.
 std::optional<Candidate> Candidates::loose_wrap(const LooseWrap& next, const Ranking& ranking, Solids& solids) const {
-  constexpr std::size_t kMostReduced = 300;
+  constexpr std::size_t kMostReduced = 1000;
   const bool is_within = ranking.has_certified() && ranking.best().hull.within_bounds;
   if (is_within && !may_be_better(next, ranking, solids)) return std::nullopt;
   const auto id = wrap(kBoundedWrap, next.spacing, solids);

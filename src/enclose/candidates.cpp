@@ -41,8 +41,17 @@ std::optional<Candidate> Candidates::next(const Ranking& ranking, Solids& solids
   return last_ = next;
 }
 
+/// Further collapses leave two thirds of the faces of a mesh's hull, and down to a fourth of those of a wrap's.
+bool Candidates::may_overtake(const Ranking& ranking) const {
+  constexpr std::size_t kMostReduced = 4;
+  const std::optional<EnclosingHull>& second = ranking.second();
+  return second && may_go_further() && last_->recipe.method != Method::Further && second->source == Source::Wrap &&
+         second->mesh.face_count() <= kMostReduced * ranking.best().hull.mesh.face_count();
+}
+
 /// Another way with the solid that was just tried.
 std::optional<Candidate> Candidates::follow_up(const Ranking& ranking, const Solids& solids) const {
+  if (may_overtake(ranking)) return further(*ranking.second());
   // With few faces, a tight hull of the mesh may have less void than one of its gap's body.
   const bool is_body_of_mesh =
       last_->recipe.method == Method::TightOfGapBody && solids[last_->solid].source == Source::Mesh;
@@ -151,13 +160,17 @@ void Candidates::plan_further() {
     if (!ranking.has_certified() || !ranking.best().hull.within_bounds || has_few_faces(ranking) ||
         ranking.best().candidate.recipe.method == Method::Further)
       return std::nullopt;
-    const bool may_touch = ranking.best().hull.source == Source::Mesh || !request_.is_outer();
-    Candidate candidate{.solid = ranking.best().hull.solid,
-                        .target_faces = target_faces_,
-                        .recipe = {Method::Further, /*moves=*/true, may_touch ? Approach::Touching : Approach::Clear}};
-    candidate.start = ranking.best().hull;
-    return candidate;
+    return further(ranking.best().hull);
   });
+}
+
+Candidate Candidates::further(const EnclosingHull& hull) const {
+  const bool may_touch = hull.source == Source::Mesh || !request_.is_outer();
+  Candidate candidate{.solid = hull.solid,
+                      .target_faces = target_faces_,
+                      .recipe = {Method::Further, /*moves=*/true, may_touch ? Approach::Touching : Approach::Clear}};
+  candidate.start = hull;
+  return candidate;
 }
 
 bool Candidates::is_worth_a_search(const EnclosingHull& hull) const {

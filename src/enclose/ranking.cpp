@@ -50,6 +50,7 @@ void Notes::add(std::string text) {
 
 void Ranking::take(std::optional<Attempt> attempt) {
   last_failed_ = !attempt || !attempt->hull.certified;
+  second_.reset();
   if (!attempt) return;
   const EnclosingHull& hull = attempt->hull;
   build_seconds_ += hull.build_seconds, verify_seconds_ += hull.verify_seconds;
@@ -61,7 +62,10 @@ void Ranking::take(std::optional<Attempt> attempt) {
   else if (!is_as_asked(hull) && request_.is_free() && !is_in_spite_of_bounds(*attempt) &&
            (hull.certified || !other_way(attempt->candidate.recipe, request_)))
     note_why_not(hull);
-  if (!best_ || is_better(hull, best_->hull)) best_ = std::move(attempt);
+  if (!best_ || is_better(hull, best_->hull))
+    best_ = std::move(attempt);
+  else if (hull.certified && hull.within_bounds)
+    second_ = std::move(attempt->hull);
 }
 
 /// It was made without a look at them.

@@ -33,6 +33,8 @@ class Ranking {
   const Attempt& best() const { return *best_; }
   bool has_certified() const { return best_ && best_->hull.certified; }
   bool last_failed() const { return last_failed_; }  ///< the last attempt is not certified, or could not be made
+  /// The last attempt, if it is certified, keeps the bounds, and is not the best.
+  const std::optional<EnclosingHull>& second() const { return second_; }
 
   bool is_as_asked() const { return best_ && is_as_asked(best_->hull); }
   bool is_clean() const { return is_clean(best_->hull); }
@@ -74,6 +76,7 @@ class Ranking {
   double void_before_padding_ = 0;  ///< of the last hull of the mesh
   double build_seconds_ = 0, verify_seconds_ = 0;
   bool last_failed_ = false;
+  std::optional<EnclosingHull> second_;
   std::size_t fewest_of_wraps_ = std::numeric_limits<std::size_t>::max();
 };
 
