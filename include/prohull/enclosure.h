@@ -38,6 +38,9 @@ struct EnclosureReport {
 
 struct EnclosureOptions {
   std::size_t max_offenders = 5;
+  /// Ends the search once more faces than so many are known to lie outside: the answer is no, and `faces_outside` and
+  /// `worst` are those found until then.
+  std::size_t most_outside = std::numeric_limits<std::size_t>::max();
   Progress progress = {};  ///< stage "verify"
   /// Ends the search where faces meet very many others: a step looks at a pair of segments in which others meet a face,
   /// in about 0.1 microseconds. Faces that would take more are undecided. The same number decides the same faces

@@ -103,7 +103,8 @@ void Candidates::plan_bounded_wraps() {
   // %.
   if (may_be_close && (!is_hopeless || finest >= finest_loose_spacing(request_))) plan_close_wraps();
   if (!may_be_close || is_hopeless) plan_loose_wraps();
-  if (finest > kCloseSpacing * max_distance) plan_why_not_closer(finest, kCloseSpacing * max_distance);
+  const bool is_too_close = may_stay_within() && finest > kCloseSpacing * max_distance;
+  if (is_too_close) plan_why_not_closer(finest, kCloseSpacing * max_distance);
 }
 
 // A few vertices of a wrap are up to 1.3 spacings away, most of them less than 0.6; the rest of the bound is for

@@ -38,7 +38,8 @@ struct Candidate {
   Recipe recipe;
   HullBounds bounds = {};  ///< that the hull is built to keep
   std::uint64_t seed = 0;
-  double within = 0;  ///< Method::Within: the distance that collapses keep
+  std::size_t least_faces = 0;  ///< Method::Levels: of the level
+  double within = 0;            ///< Method::Within: the distance that collapses keep
   std::size_t most_faces = std::numeric_limits<std::size_t>::max();  ///< with more, it is not better than another hull
   std::optional<EnclosingHull> start = {};  ///< Method::Searched and Further: what they begin with
 };

@@ -12,6 +12,7 @@ Candidates::Candidates(const Request& request, std::size_t target_faces, const H
     : request_(request), target_faces_(target_faces), bounds_(bounds), seed_(seed), notes_(notes) {
   if (request.is_free() && !request.input.closed && std::isfinite(bounds.max_void_ratio)) plan_volume();
   plan_mesh();
+  if (request.is_padded() && bounds.any()) plan_finer_levels();
   if (request.is_outer() && !request.is_bound_to_mesh()) plan_unfolded_mesh();
   if (request.is_outer() && may_stay_within()) plan_within_of_mesh();
   if (request.is_free()) {
@@ -106,11 +107,13 @@ bool Candidates::has_few_faces(const Ranking& ranking) const {
 }
 
 // Where many parts overlap, the mesh's hull is several times larger than the others, if there is any. But it may be the
-// only one that keeps a bound.
+// only one that keeps a bound, unless each face meets very many others: of a crumpled sphere with 160 pairs for each
+// face, it took minutes to find none.
 bool Candidates::is_worth_the_mesh(const Solids& solids) const {
-  constexpr std::size_t kMany = 120;
+  constexpr std::size_t kMany = 120, kVeryManyPerFace = 50;
   if (!solids.has_mesh() || has_too_many_parts(solids[0])) return false;
-  return !request_.is_free() || request_.options.levels || bounds_.any() || solids[0].self_intersections <= kMany;
+  const std::size_t most = bounds_.any() ? kVeryManyPerFace * solids[0].mesh.face_count() : kMany;
+  return !request_.is_free() || request_.options.levels || solids[0].self_intersections <= most;
 }
 
 void Candidates::plan_mesh() {
@@ -118,6 +121,21 @@ void Candidates::plan_mesh() {
     if (!is_worth_the_mesh(solids)) return std::nullopt;
     return of(0, solids);
   });
+}
+
+// Where the coarsest level that would keep the bounds cannot move away by the gap: finer ones pass through themselves
+// less.
+void Candidates::plan_finer_levels() {
+  constexpr std::size_t kMostFaces = 16'000;  // to move away takes most of the time
+  for (const std::size_t part : {4, 2, 1})
+    steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+      const bool is_within = ranking.has_certified() && ranking.best().hull.within_bounds;
+      if (ranking.is_empty() || is_within || !is_worth_the_mesh(solids)) return std::nullopt;
+      Candidate candidate = of(0, solids);
+      candidate.least_faces = solids[0].mesh.face_count() / part;
+      const bool is_finer = candidate.least_faces > ranking.best().hull.mesh.face_count();
+      return is_finer && candidate.least_faces <= kMostFaces ? std::optional(candidate) : std::nullopt;
+    });
 }
 
 // Where the mesh's own hull leaves folds uncovered, as with many faces.

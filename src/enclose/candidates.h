@@ -31,6 +31,7 @@ class Candidates {
 
   void plan_volume();
   void plan_mesh();
+  void plan_finer_levels();
   void plan_unfolded_mesh();
   void plan_within_of_mesh();
   void plan_convex_hull();

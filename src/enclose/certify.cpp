@@ -19,15 +19,18 @@ namespace {
 
 bool covers(const TriangleMesh& hull, const TriangleMesh& triangles, const Progress& progress) {
   if (triangles.face_count() == 0) return true;
-  return verify_cover(triangles, hull, {.max_offenders = 0, .progress = progress}).encloses;
+  return verify_cover(triangles, hull, {.max_offenders = 0, .most_outside = 0, .progress = progress}).encloses;
 }
 
-Verification verdict_of(const TriangleMesh& hull, const Request& request, Solids& solids, std::size_t max_offenders,
+/// Stops where more faces than so many lie outside.
+Verification verdict_of(const TriangleMesh& hull, const Request& request, Solids& solids, std::size_t most_outside,
                         double gap) {
-  return of_file(
-      verify::verify_hull(hull, solids.original(), request.options.hull.side,
-                          {.gap = gap, .max_offenders = max_offenders, .progress = request.options.progress}),
-      request.input);
+  return of_file(verify::verify_hull(hull, solids.original(), request.options.hull.side,
+                                     {.gap = gap,
+                                      .max_offenders = most_outside,
+                                      .most_outside = most_outside,
+                                      .progress = request.options.progress}),
+                 request.input);
 }
 
 bool encloses_mesh(EnclosingHull& hull, const Solid& solid, const Request& request, Solids& solids) {
@@ -58,7 +61,8 @@ bool is_proven(EnclosingHull& hull, const Solid& solid, const Request& request, 
   const bool is_base = hull.levels && hull.mesh == hull.levels->base();
   std::optional<Verification> of_levels;
   if (hull.levels && solid.source == Source::Mesh)
-    of_levels = verify::verify_hull(*hull.levels, solids.original(), {.max_offenders = 0, .progress = progress});
+    of_levels = verify::verify_hull(*hull.levels, solids.original(),
+                                    {.max_offenders = 0, .most_outside = 0, .progress = progress});
   const bool are_proven = of_levels && of_levels->encloses;
   if (hull.levels && !are_proven) {
     if (!verify_replay(*hull.levels, solid.mesh, progress).holds) return false;

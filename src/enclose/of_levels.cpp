@@ -16,11 +16,11 @@ namespace {
 std::size_t faces_of_level(const ProgressiveHull& hull, const Making& making) {
   constexpr double kAsNear = 1.01;
   const std::size_t target = making.candidate.target_faces;
-  std::size_t faces = target;
+  std::size_t faces = std::max(target, making.candidate.least_faces);
   if (making.bounds().any()) {
     const double least = excess_when_padded(making.solid().mesh, making), most = least <= 1 ? 1 : kAsNear * least;
     const auto is_near = [&](const TriangleMesh& level) { return excess_as_stored(level, making) <= most; };
-    if (std::isfinite(least)) faces = std::max(target, faces_within(hull, is_near));
+    if (std::isfinite(least)) faces = std::max(faces, faces_within(hull, is_near));
   }
   if (!making.request.is_symmetric()) return faces;
   const std::size_t coarser = symmetric_faces(hull, *making.options().hull.mirror, faces);

@@ -104,7 +104,7 @@ EnclosingHull built_further(const Making& making) {
   hull.levels.reset();
   TriangleMesh start = start_of(hull.mesh, making);
   double distance = making.bounds().max_distance, fewer = 0;
-  for (int round = 0; round < kMostRounds && fewer <= kFewer; ++round) {
+  for (int round = 0; round < kMostRounds && fewer <= kFewer && distance > 0; ++round) {
     FurtherTrial trial = try_further(start, distance, making);
     fewer = double(trial.mesh.face_count()) / double(hull.mesh.face_count());
     if (trial.excess > 1) {

@@ -221,6 +221,7 @@ class CoverVerifier {
 
   EnclosureReport report() {
     for (const FaceId f : mesh_.triangles.ids()) {
+      if (is_enough()) break;
       counter_.next();
       try {
         check(f);
@@ -241,6 +242,8 @@ class CoverVerifier {
   }
 
  private:
+  bool is_enough() const { return offenders_.size() > options_.most_outside; }
+
   void check(FaceId f) {
     const Triangle t = mesh_.triangle(f);
     const Box box = box_of(t);
@@ -361,6 +364,7 @@ class CoverVerifier {
     }
     std::vector<std::optional<bool>> is_covered(mesh_.vertex_count());  // by representative
     for (const FaceId f : free_) {
+      if (is_enough()) break;
       const auto corner = clear_corner(f);
       if (!corner) {
         check_alone(f);

@@ -145,11 +145,13 @@ class Verifier {
     }
   };
 
+  bool is_enough() const { return offenders_.size() > options_.most_outside; }
+
   void check_inner_faces() {
     DisjointSets clusters(inner_.faces.size());
     std::vector<std::uint8_t> is_free(inner_.faces.size());        // H does not meet the interior
     std::vector<std::uint8_t> open_edges(inner_.faces.size(), 0);  // bit e: edge e is not on H
-    for (FaceIndex f = 0; f < inner_.faces.size(); ++f) {
+    for (FaceIndex f = 0; f < inner_.faces.size() && !is_enough(); ++f) {
       if (f % 64 == 0) meter_.at(0.7 * double(f) / double(inner_.faces.size()));
       const Neighbours near = neighbours(inner_, f, outer_);
       if (near.touches_interior) {
@@ -162,7 +164,7 @@ class Verifier {
     const auto joins = [&](const FaceEdge& e) { return is_free[e.face] && (open_edges[e.face] >> e.edge & 1); };
     join_along_edges(inner_, clusters, joins);
     std::vector<std::uint8_t> is_uncovered(inner_.faces.size());  // by representative, which comes first in its cluster
-    for (FaceIndex f = 0; f < inner_.faces.size(); ++f) {
+    for (FaceIndex f = 0; f < inner_.faces.size() && !is_enough(); ++f) {
       if (!is_free[f]) continue;
       const FaceIndex r = clusters.find(f);
       if (r == f) is_uncovered[r] = is_uncovered_somewhere(f);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -95,6 +96,7 @@ class Judge {
   EnclosureOptions next_step() {
     const double from = static_cast<double>(done_++), steps = static_cast<double>(steps_);
     return {.max_offenders = options_.max_offenders,
+            .most_outside = options_.most_outside,
             .progress = meter_.part(from / steps, (from + 1) / steps),
             .max_steps = verify::most_steps(options_, original_.mesh().face_count())};
   }
@@ -128,13 +130,17 @@ class Judge {
   }
 
   /// Of an original that is not closed.
-  void cover_all(const TriangleMesh& hull) {
-    found.covers_triangles = take(verify_cover(original_.mesh(), hull, next_step()), kLeavesTriangles);
+  void cover_all(const TriangleMesh& hull) { cover_all(hull, options_.most_outside); }
+
+  void cover_all(const TriangleMesh& hull, std::size_t most_outside) {
+    EnclosureOptions how = next_step();
+    how.most_outside = most_outside;
+    found.covers_triangles = take(verify_cover(original_.mesh(), hull, how), kLeavesTriangles);
   }
 
   /// By the finest level of a hull, and so by all, or else by the base mesh.
   void cover_all_by_levels(const TriangleMesh& finest, const TriangleMesh& base) {
-    cover_all(finest);
+    cover_all(finest, std::numeric_limits<std::size_t>::max());  // they are counted
     if (found.faces_outside == 0) return;
     const std::size_t outside = found.faces_beside_solid = found.faces_outside;
     cover_all(base);
