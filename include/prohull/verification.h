@@ -28,7 +28,8 @@ struct VerificationOptions {
   /// an inner hull must be enclosed by its solid. It is not looked at if the original is closed.
   const TriangleMesh* closed = nullptr;
   std::size_t max_offenders = 5;
-  /// EnclosureOptions::most_outside
+  /// EnclosureOptions::most_outside. If it is given, a hull that does not enclose is not measured: its
+  /// self_intersections are 0, and volumes NaN.
   std::size_t most_outside = std::numeric_limits<std::size_t>::max();
   /// The most steps of each search for parts that lie outside, for holes, and for faces nearer than the gap; what is
   /// left then is undecided, the same on every machine. 0: two billion and 2,000 for each face of the original, which

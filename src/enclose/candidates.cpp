@@ -107,12 +107,13 @@ bool Candidates::has_few_faces(const Ranking& ranking) const {
 }
 
 // Where many parts overlap, the mesh's hull is several times larger than the others, if there is any. But it may be the
-// only one that keeps a bound, unless each face meets very many others: of a crumpled sphere with 160 pairs for each
-// face, it took minutes to find none.
+// only one that keeps a bound, unless a component is a tangle: of a crumpled sphere with 160 pairs for each face, it took
+// minutes to find none. 200 tetrahedra with 107 have one.
 bool Candidates::is_worth_the_mesh(const Solids& solids) const {
-  constexpr std::size_t kMany = 120, kVeryManyPerFace = 50;
+  constexpr std::size_t kMany = 120;
+  constexpr std::size_t kTangle = 50;  // pairs for each face and component
   if (!solids.has_mesh() || has_too_many_parts(solids[0])) return false;
-  const std::size_t most = bounds_.any() ? kVeryManyPerFace * solids[0].mesh.face_count() : kMany;
+  const std::size_t most = bounds_.any() ? kTangle * solids[0].mesh.face_count() * solids[0].components : kMany;
   return !request_.is_free() || request_.options.levels || solids[0].self_intersections <= most;
 }
 

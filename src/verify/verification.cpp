@@ -203,6 +203,7 @@ class Judge {
   }
 
   void measure(verify::KnownSolid& hull) {
+    if (!found.encloses && gives_up()) return;
     found.self_intersections = hull.self_intersections(meter_).size();
     found.hull_volume = found.inverted_hull_faces > 0 ? signed_volume(hull.mesh()) : hull.volume(meter_);
     if (has_solid()) found.original_volume = original_.solid().volume(meter_);
@@ -214,6 +215,8 @@ class Judge {
   Verification found;
 
  private:
+  bool gives_up() const { return options_.most_outside < std::numeric_limits<std::size_t>::max(); }
+
   /// Caps are none.
   bool any_triangle_is_outside() const {
     if (!stand_in_ || !is_outer()) return found.faces_outside > 0;
