@@ -190,7 +190,7 @@ bool Candidates::may_be_better(const LooseWrap& next, const Ranking& ranking, co
 // A hull of a wrap that keeps the bounds has at most kMostReduced times fewer faces than the wrap. Where another hull
 // keeps them with fewer still, the wrap is left out.
 std::optional<Candidate> Candidates::loose_wrap(const LooseWrap& next, const Ranking& ranking, Solids& solids) const {
-  constexpr std::size_t kMostReduced = 1000;
+  constexpr std::size_t kMostReduced = 400;
   const bool is_within = ranking.has_certified() && ranking.best().hull.within_bounds;
   if (is_within && !may_be_better(next, ranking, solids)) return std::nullopt;
   const auto id = wrap(kBoundedWrap, next.spacing, solids);

@@ -480,6 +480,11 @@ TEST(EnclosingHull, AtADistanceOfZeroIsTheMeshItself) {
 }
 
 // What it misses by is kept when it is allowed.
+TEST(EnclosingHull, AtADistanceWhoseSquareIsZeroIsTheMeshItself) {
+  const TriangleMesh mesh = make_sample("asteroid", 60);
+  EXPECT_TRUE(has_triangles_of(enclosing_hull(mesh, 20, {.bounds = {.max_distance = 1e-160}}).mesh, mesh));
+}
+
 TEST(EnclosingHull, OfABoundThatNoHullKeepsIsNear) {
   const TriangleMesh soup = without_a_face(make_sample("asteroid", 60));
   const double diagonal = bounding_box(soup).diagonal();

@@ -196,6 +196,15 @@ TEST(Padding, CountsForBoundsOfTheVoid) {
 }
 
 // Two blocks: the gap between them is narrower than two paddings, and faces of either would pass through the other's.
+// Its coarse levels pass through themselves when they move away by the gap.
+TEST(Padding, WithABoundMayNeedAFinerLevel) {
+  const TriangleMesh bracket = make_sample("bracket", 500);
+  const EnclosingHull hull = padded(bracket, 60, 0.1, {.bounds = {.max_void_ratio = 0.633}});
+  EXPECT_TRUE(hull.within_bounds);
+  EXPECT_EQ(hull.source, Source::Mesh);
+  EXPECT_LE(hull.mesh.face_count(), bracket.face_count());
+}
+
 TEST(Padding, OfTightHullsOfNarrowGapsIsProven) {
   SoupMaker random(test_seed());
   const TriangleMesh mesh = together(box({0, 0, 0}, {1, 1, 1}), box({1.03, 0, 0}, {2, 1, 1}));

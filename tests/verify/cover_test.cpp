@@ -177,6 +177,9 @@ TEST(Cover, CountsTrianglesOutsideAndNamesTheFarthest) {
   EXPECT_EQ(report.worst[2].distance, 3);
   EXPECT_EQ(report.outer_volume, 1);
   EXPECT_EQ(report.void_ratio, 0);
+  const EnclosureReport first = verify_cover(soup, kUnitBox, {.most_outside = 1});
+  EXPECT_FALSE(first.encloses);
+  EXPECT_EQ(first.faces_outside, 2u) << "more were not looked for";
 }
 
 TEST(Cover, OfATriangleOutsideThatIsConnectedToOneInside) {
