@@ -310,6 +310,9 @@ std::vector<Cell> hull_cells(const LinkHulls* hulls) {
           length_text(hull->verdict.distance().upper, Rounded::Up)};
 }
 
+/// An estimate, in which what is shorter is rounding.
+std::string mean_text(double metres) { return metres < 1e-9 ? "less than 1 nm" : length_text(metres); }
+
 std::vector<Cell> check_cells(const LinkCheck* check, double allow) {
   if (!check) return {};
   return {verdict(*check, allow), sticks_out(*check), ratio_text(ratio(check->collision_volume, check->visual_volume))};
@@ -401,7 +404,7 @@ std::vector<Fact> facts(const LinkHulls* link, std::span<const LinkHull> hulls, 
            [=](Check c) { return range(c.reach); }},
           {std::ranges::any_of(hulls, &LinkHull::has_openings), "The same, from its triangles alone",
            [=](Hull h) { return range(*h.verdict.distance_to_triangles); }, unknown},
-          {has_check, "Mean distance from the geometry", unknown, [](Check c) { return length_text(c.mean_distance); }},
+          {has_check, "Mean distance from the geometry", unknown, [](Check c) { return mean_text(c.mean_distance); }},
           {is_padded, "Padding, proven",
            [](Hull h) { return "at least " + length_text(h.verdict.gap.value_or(0), Rounded::Down); }, unknown},
           {has_hulls, "Proven to lie inside", [](Hull h) { return h.certified() ? proven_text(h.verdict) : kDash; },
