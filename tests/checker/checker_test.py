@@ -1,6 +1,8 @@
 """Tests prohull_check: cases by hand for each kind of section, all formats of meshes, files that no one can read, and mutants.
 
-    checker_test.py PROHULL_CHECK [unittest options]
+    checker_test.py PROHULL_CHECK CHECK_MANY [unittest options]
+
+CHECK_MANY is check_many.c, which answers for mutants: to start PROHULL_CHECK for each took a fifth of the time.
 
 The environment variable PROHULL_CHECK_MUTANTS says how many mutants are tried, and PROHULL_TEST_SEED with which seed. Where the Python
 package is, prohull.verify is asked about each mutant, too: what the checker proves it must not deny.
@@ -22,7 +24,7 @@ try:
 except ImportError:
     prohull = None
 
-PROGRAM = sys.argv.pop(1)
+PROGRAM, MANY = sys.argv.pop(1), sys.argv.pop(1)
 MUTANTS = int(os.environ.get("PROHULL_CHECK_MUTANTS", "7500"))
 SEED = os.environ.get("PROHULL_TEST_SEED", "1")
 PROVEN, NOT_PROVEN, UNREADABLE = 0, 1, 2
@@ -53,11 +55,14 @@ def some_tetrahedron(rng):
 
 
 class Checked(Folder):
-    def check(self, cert, hull, original, hull_name="hull.off", original_name="original.off"):
-        """Exit code and line. Meshes may be given as bytes."""
-        paths = [self.path("c", cert)]
-        paths += [self.path(n, m if isinstance(m, bytes) else off(m)) for n, m in ((hull_name, hull), (original_name, original))]
-        done = subprocess.run([PROGRAM, *paths], capture_output=True, text=True, timeout=60)
+    def paths(self, cert, hull, original, hull_name="hull.off", original_name="original.off"):
+        """Meshes may be given as bytes."""
+        meshes = ((hull_name, hull), (original_name, original))
+        return [self.path("c", cert)] + [self.path(n, m if isinstance(m, bytes) else off(m)) for n, m in meshes]
+
+    def check(self, *files, **names):
+        """Exit code and line."""
+        done = subprocess.run([PROGRAM, *self.paths(*files, **names)], capture_output=True, text=True, timeout=60)
         self.assertIn(done.returncode, (PROVEN, NOT_PROVEN, UNREADABLE), done.stderr)
         self.assertEqual(done.stdout.count("\n"), 1)
         self.assertEqual(done.stderr, "")
@@ -427,13 +432,25 @@ class Mutants(Checked):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
+        cls.many = subprocess.Popen([MANY], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         cls.verified = {}  # how often, by both answers: whether the checker says yes, and whether verify does
 
     @classmethod
     def tearDownClass(cls):
+        cls.many.communicate()
         super().tearDownClass()
         asked = "; ".join(f"checker {c}, verify {v}: {n}" for (c, v), n in sorted(cls.verified.items()))
         print(f"PROHULL_TEST_SEED={SEED}; {asked or 'prohull.verify was not asked: there is no Python package'}")
+
+    def check(self, *files):
+        """As the program of one check does, by CHECK_MANY."""
+        print(*self.paths(*files), sep="\t", file=self.many.stdin, flush=True)
+        told = []
+        while not (told and told[-1].startswith("exit ")):
+            told.append(self.many.stdout.readline() or "exit of CHECK_MANY")
+        line, _, end = told
+        self.assertIn(end, [f"exit {code}\n" for code in (PROVEN, NOT_PROVEN, UNREADABLE)], told)
+        return int(end.split()[1]), line
 
     def denied_by_verify(self, claims, hull, original, side):
         """What prohull.verify says against a yes to these claims, which say all that it decides; None if it was not asked."""
