@@ -530,7 +530,7 @@ TEST(EnclosingHull, OfASoupKeepsACloseBound) {
 
 // So close that no collapse may be left to chance.
 TEST(EnclosingHull, OfASoupKeepsAVeryCloseBound) {
-  const TriangleMesh soup = without_a_face(make_sample("asteroid", 300));
+  const TriangleMesh soup = without_a_face(make_sample("asteroid", 100));
   const double bound = 0.0049 * bounding_box(soup).diagonal();
   const EnclosingHull hull = enclosing_hull(soup, 20, {.bounds = {.max_distance = bound}, .repair = Repair::Wrap});
   EXPECT_TRUE(hull.certified && hull.within_bounds);
