@@ -561,6 +561,17 @@ TEST(EnclosingHull, HasFurtherCollapsesWithinABound) {
 }
 
 // Wraps of a tent of four faces missed bounds of 0.1 and 0.3 % of its diagonal.
+// Before they are compared, the wrap's hull has more faces than the mesh's, whose further collapses are few.
+TEST(EnclosingHull, OfAWrapHasFurtherCollapsesBeforeItIsCompared) {
+  const TriangleMesh bracket = make_sample("bracket", 300);
+  const TriangleMesh crossing = together(bracket, moved(scaled(bracket, 0.7), {0.3, 0.2, 0.1}));
+  const HullBounds bounds{.max_distance = 0.03 * bounding_box(crossing).diagonal()};
+  const EnclosingHull hull = enclosing_hull(crossing, 20, {.bounds = bounds});
+  EXPECT_TRUE(hull.certified && hull.within_bounds);
+  EXPECT_EQ(hull.source, Source::Wrap);
+  EXPECT_LT(hull.mesh.face_count(), 200U);
+}
+
 TEST(EnclosingHull, OfASheetOfFewFacesKeepsCloseBounds) {
   TriangleMesh tent;
   tent.positions = {{-1, 0, 1}, {1, 0, 1}, {-1, 0, -1}, {1, 0, -1}, {0, 0.7, 0}};
