@@ -184,7 +184,7 @@ BuildOutcome build_and_write(BuildOptions options) {
   if (!options.certificate.empty())
     for (Written& written : outcome.written)
       if (written.certified()) write_certificate(written, original, options, outputs);
-  outputs.add_report(options.report, report_of(options, outcome));
+  if (!options.report.empty()) outputs.add_report(options.report, report_of(options, outcome));
   outputs.commit();
   return outcome;
 }

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <new>
+#include <string_view>
 
 #include "command.h"
 #include "help.h"
@@ -20,32 +22,32 @@ std::string names_an_output(const std::string& name) {
   return name.empty() ? "the name of the output is empty; name a file" : "";
 }
 
-void add_commands(CLI::App& app, Run& run) {
-  add_build(app, run);
-  add_cage(app, run);
-  add_verify(app, run);
-  add_info(app, run);
-  add_lod(app, run);
-  add_query(app, run);
-  add_collide(app, run);
-  add_contains(app, run);
-  add_distance(app, run);
-  add_convex(app, run);
-  add_spheres(app, run);
-  add_urdf(app, run);
-  add_motion(app, run);
-  add_sweep(app, run);
-  add_repair(app, run);
-  add_render(app, run);
-  add_view(app, run);
-  add_sample(app, run);
-  add_completion(app, run);
-  add_manual(app, run);
-  add_help(app, run);
-  app.get_subcommand("cage")->get_option("--inner")->check(names_an_output);  // of query it names an input
+struct Named {
+  std::string_view name;
+  void (*add)(CLI::App&, Run&);
+};
+constexpr Named kCommands[]{{"build", add_build},     {"cage", add_cage},         {"verify", add_verify},
+                            {"info", add_info},       {"lod", add_lod},           {"query", add_query},
+                            {"collide", add_collide}, {"contains", add_contains}, {"distance", add_distance},
+                            {"convex", add_convex},   {"spheres", add_spheres},   {"urdf", add_urdf},
+                            {"motion", add_motion},   {"sweep", add_sweep},       {"repair", add_repair},
+                            {"render", add_render},   {"view", add_view},         {"sample", add_sample}};
+
+/// All commands, or only the one that is called: the options of all take 2 ms, as long as a small hull.
+void add_commands(CLI::App& app, Run& run, std::string_view called) {
+  const auto named = std::ranges::find(kCommands, called, &Named::name);
+  if (named != std::end(kCommands)) {
+    named->add(app, run);
+  } else {
+    for (const Named& command : kCommands) command.add(app, run);
+    add_completion(app, run);
+    add_manual(app, run);
+    add_help(app, run);
+  }
   for (CLI::App* command : app.get_subcommands({})) {
     for (const char* name : kOutputs)
       if (CLI::Option* const output = command->get_option_no_throw(name)) output->check(names_an_output);
+    if (command->get_name() == "cage") command->get_option("--inner")->check(names_an_output);  // of query: an input
     CLI::Option* const quiet = command->add_flag(
         "-q,--quiet", console().quiet, "Print no summary and no progress. Errors and files written to - still appear.");
     command->add_flag("-v,--verbose", console().verbose, "Print more about what was done, and how long it took.")
@@ -67,7 +69,7 @@ int parse_and_run(int argc, char** argv) {
       "`prohull help COMMAND` shows the options and examples of a command.\n"
       "Exit codes: 0 done; 1 the answer is no; 2 wrong usage; 3 bad input; 4 undecided; 130 interrupted.");
   Run run;
-  add_commands(app, run);
+  add_commands(app, run, argc > 1 ? argv[1] : "");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
