@@ -32,6 +32,15 @@ inline Double2 sqrt(Double2 x) {
 #endif
 }
 
+/// Of a lane in which one is NaN, that of b.
+inline Float4 max(Float4 a, Float4 b) {
+#ifdef __SSE2__
+  return _mm_max_ps(a, b);
+#else
+  return a > b ? a : b;
+#endif
+}
+
 inline Double2 abs(Double2 x) {
   return std::bit_cast<Double2>(std::bit_cast<Truth2>(x) & std::numeric_limits<std::int64_t>::max());
 }

@@ -35,6 +35,8 @@ class UnitCube {
   }
 
   std::array<float, 3> at(const Vec3& p) const { return {along(0, p.x), along(1, p.y), along(2, p.z)}; }
+  /// A length becomes so many times itself.
+  double scale() const { return inverse_unit_; }
   FloatBox at(const Box& box) const { return {at(box.min), at(box.max)}; }
   FloatBox at(const Triangle& t) const {
     FloatBox box;

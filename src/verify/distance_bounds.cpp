@@ -38,15 +38,18 @@ DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to,
   verify::FarFromFaces::Search search(rule, {.relative_gap = options.relative_gap, .max_parts = options.max_cells});
   ProgressCounter counter(options.progress, "measure", options.max_cells + from.face_count());
   PerVertex<verify::NearestFace::Found> nearest(from.vertex_count(), verify::NearestFace::kNone);
+  std::uint32_t guess = 0;  // near the vertex before
   for (const FaceId f : from.triangles.ids()) {
     counter.next();
     const auto& corners = from.triangles[f];
     for (const VertexId v : corners)
-      if (nearest[v].distance == verify::NearestFace::kNone.distance)
-        nearest[v] = rule.look_at(from.positions[v], search);
+      if (nearest[v].distance == verify::NearestFace::kNone.distance) {
+        const Vec3& p = from.positions[v];
+        nearest[v] = rule.look_at(p, search, {guess, faces.distance(p, guess)});
+        guess = nearest[v].face;
+      }
     const auto& [a, b, c] = corners;
-    const Triangle t = from.triangle(f);
-    search.add({{t.a, t.b, t.c}, {nearest[a], nearest[b], nearest[c]}});
+    rule.add(from.triangle(f), {nearest[a], nearest[b], nearest[c]}, search);
   }
   return verify::proven(search.run([&] { counter.next(); }), faces, verify::rounding_of_distances(largest));
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <utility>
+#include <vector>
 
 #include "geometry/heap_with_ties.h"
 #include "prohull/distance.h"
@@ -26,13 +26,12 @@ struct SearchLimits {
   std::size_t max_parts = 0;
 };
 
-/// Bounds the greatest distance of points: the part whose bound is greatest is cut in two, again and again. The rule
-/// says what parts are, such as parts of faces, and from what distances count:
+/// Bounds the greatest distance of points: the part whose bound is greatest is cut, again and again. The rule says what
+/// parts are, such as parts of faces, and from what distances count:
 ///
-///   Part                     a part of the points
-///   upper(part, search)      no point of the part that counts is farther away; any bound that search.is_enough() will
-///                            do. For points that are found it calls search.reaches
-///   halves(part, search)     two parts that have all points of the part
+///   Part                 a part of the points
+///   cut(part, search)    adds parts to the search that have all points of the part, and calls search.reaches for
+///                        points that it finds
 ///
 /// A search is as wide as its limits allow; the bound `upper` holds whenever it ends.
 template <class Rule>
@@ -57,13 +56,15 @@ class GreatestDistance {
     return upper <= (1 + limits_.relative_gap) * bounds_.lower + limits_.absolute_gap;
   }
 
-  void add(Part part) {
+  /// No point of the part that counts is farther away than `upper`.
+  void add(const Part& part, double upper) {
     ++seen_;
-    const double upper = rule_.upper(part, *this);
-    if (is_enough(upper))
+    if (is_enough(upper)) {
       settled_ = std::max(settled_, upper);
-    else
-      open_.push({std::move(part), upper});
+      return;
+    }
+    open_.push({upper, parts_.size()});
+    parts_.push_back(part);
   }
 
   /// Of all parts that were added; calls `next` before it cuts one.
@@ -71,9 +72,9 @@ class GreatestDistance {
   DistanceBounds run(Next next) {
     while (!open_.empty() && !is_enough(open_.top().upper) && seen_ < limits_.max_parts) {
       next();
-      const Part part = open_.top().part;
+      const Part part = parts_[open_.top().part];
       open_.pop();
-      for (const Part& half : rule_.halves(part, *this)) add(half);
+      rule_.cut(part, *this);
     }
     bounds_.upper = std::max({open_.empty() ? 0 : open_.top().upper, settled_, bounds_.lower});
     return bounds_;
@@ -81,13 +82,14 @@ class GreatestDistance {
 
  private:
   struct Open {
-    Part part;
     double upper;
+    std::size_t part;
     bool operator<(const Open& other) const { return upper < other.upper; }
   };
 
   const Rule& rule_;
   const SearchLimits limits_;
+  std::vector<Part> parts_;
   HeapWithTies<Open> open_;
   double settled_ = 0;  ///< the greatest bound of parts that need not be cut
   std::size_t seen_ = 0;

@@ -3,8 +3,9 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
-#include "geometry/bvh.h"
+#include "geometry/four_boxes.h"
 #include "prohull/triangle_mesh.h"
 #include "verify/greatest_distance.h"
 
@@ -38,7 +39,7 @@ class NearestFace {
     double distance;
   };
 
-  explicit NearestFace(const TriangleMesh& mesh) : mesh_(mesh), tree_(mesh) {}
+  explicit NearestFace(const TriangleMesh& mesh);
 
   double distance(const Vec3& p, std::uint32_t face) const;
   /// Proven: no face is nearer to p. Coordinates are within 1e100.
@@ -52,30 +53,40 @@ class NearestFace {
   }
 
  private:
+  /// measure(f) of all faces that may be nearer to p than `best`, which is the least of all that it has returned.
+  template <class Measure>
+  void visit_near(const Vec3& p, double best, Measure measure) const;
+
   const TriangleMesh& mesh_;
-  Bvh tree_;
+  UnitCube cube_;
+  std::vector<std::uint32_t> face_at_;  ///< along a Morton curve
+  FourWideTree levels_;                 ///< over the faces in this order
 };
 
 /// The bounds as they hold where distances, and the points of parts, are off by `rounding`.
 DistanceBounds proven(const DistanceBounds& found, const NearestFace& faces, double rounding);
 
 /// Parts of faces, and how far all of their points are from a mesh. The distance to a triangle is a convex function: no
-/// point of a part is farther from it than the farthest corner.
+/// point of a part is farther from it than the farthest corner. So is a mean of such distances, which no nearest face
+/// is above.
 class FarFromFaces {
  public:
   struct Part {
     std::array<Vec3, 3> corners;
-    std::array<NearestFace::Found, 3> nearest;  ///< to each corner
+    std::array<std::uint32_t, 3> faces;              ///< near each corner
+    std::array<std::array<double, 3>, 3> distances;  ///< [i][j]: of corner i from face j
   };
   using Search = GreatestDistance<FarFromFaces>;
 
   explicit FarFromFaces(const NearestFace& faces) : faces_(faces) {}
 
-  double upper(const Part& part, const Search& search) const;
-  std::array<Part, 2> halves(const Part& part, Search& search) const;
+  void add(const Triangle& t, const std::array<NearestFace::Found, 3>& nearest, Search& search) const;
+  /// In two halves. Which face is nearest to the middle of the cut is asked only if the faces of the part leave a half
+  /// open.
+  void cut(const Part& part, Search& search) const;
 
   /// The face nearest to a point, none that is not nearer than `known`. The search is told of the point.
-  NearestFace::Found look_at(const Vec3& p, Search& search, const NearestFace::Found& known = NearestFace::kNone) const;
+  NearestFace::Found look_at(const Vec3& p, Search& search, const NearestFace::Found& known) const;
 
  private:
   const NearestFace& faces_;

@@ -123,6 +123,22 @@ class FarFromSolid {
 
   FarFromSolid(const Target& target, IsHidden is_hidden) : target_(target), is_hidden_(std::move(is_hidden)) {}
 
+  void add(Part part, Search& search) const {
+    const double bound = upper(part, search);
+    search.add(part, bound);
+  }
+
+  void cut(const Part& part, Search& search) const {
+    for (const Shape& half : part.shape.halves()) add({half, part.nearest}, search);
+  }
+
+  /// A point of the shape that may be far away.
+  void look_at(const Shape& shape, const Vec3& p, double distance, Search& search) const {
+    if (distance > search.lower() && target_.is_outside(p) && !is_hidden_(shape, {&p, 1})) search.reaches(p, distance);
+  }
+
+ private:
+  /// Any bound that search.is_enough() will do.
   double upper(Part& part, Search& search) const {
     const double by_guess = farthest_corner(part);
     if (search.is_enough(by_guess)) return by_guess;
@@ -137,17 +153,6 @@ class FarFromSolid {
     return by_corners;
   }
 
-  std::array<Part, 2> halves(const Part& part, Search&) const {
-    const auto [one, other] = part.shape.halves();
-    return {Part{one, part.nearest}, Part{other, part.nearest}};
-  }
-
-  /// A point of the shape that may be far away.
-  void look_at(const Shape& shape, const Vec3& p, double distance, Search& search) const {
-    if (distance > search.lower() && target_.is_outside(p) && !is_hidden_(shape, {&p, 1})) search.reaches(p, distance);
-  }
-
- private:
   double farthest_corner(const Part& part) const {
     double farthest = 0;
     for (const Vec3& p : part.shape.hull()) farthest = std::max(farthest, target_.faces().distance(p, part.nearest));
@@ -219,7 +224,7 @@ DistanceBounds reach_from_solid(std::span<const TriangleMesh> pieces, const Targ
     for (const FaceId f : piece.triangles.ids()) {
       counter.next();
       const Triangle t = piece.triangle(f);
-      search.add({{{t.a, t.b, t.c}}, last});
+      rule.add({{{t.a, t.b, t.c}}, last}, search);
     }
   return reach_of(search, target, counter, largest);
 }
@@ -265,7 +270,7 @@ DistanceBounds union_reach(std::span<const Ball> balls, const TriangleMesh& orig
   Rule::Search search(rule, limits_of(options, target));
   ProgressCounter counter(options.progress, "measure", options.max_cells);
   for (const Ball& ball : balls)
-    for (const SpherePart& part : parts_of(ball)) counter.next(), search.add({part});
+    for (const SpherePart& part : parts_of(ball)) counter.next(), rule.add({part}, search);
   return reach_of(search, target, counter, largest);
 }
 
