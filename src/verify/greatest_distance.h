@@ -63,8 +63,10 @@ class GreatestDistance {
       settled_ = std::max(settled_, upper);
       return;
     }
-    open_.push({upper, parts_.size()});
-    parts_.push_back(part);
+    if (free_.empty()) free_.push_back(parts_.size()), parts_.emplace_back();
+    parts_[free_.back()] = part;
+    open_.push({upper, free_.back()});
+    free_.pop_back();
   }
 
   /// Of all parts that were added; calls `next` before it cuts one.
@@ -73,6 +75,7 @@ class GreatestDistance {
     while (!open_.empty() && !is_enough(open_.top().upper) && seen_ < limits_.max_parts) {
       next();
       const Part part = parts_[open_.top().part];
+      free_.push_back(open_.top().part);
       open_.pop();
       rule_.cut(part, *this);
     }
@@ -90,6 +93,7 @@ class GreatestDistance {
   const Rule& rule_;
   const SearchLimits limits_;
   std::vector<Part> parts_;
+  std::vector<std::size_t> free_;  ///< places in `parts_` of parts that were cut
   HeapWithTies<Open> open_;
   double settled_ = 0;  ///< the greatest bound of parts that need not be cut
   std::size_t seen_ = 0;

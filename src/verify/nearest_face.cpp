@@ -178,6 +178,31 @@ double upper(const FarFromFaces::Part& part) {
   return std::ranges::min(farthest);
 }
 
+/// A side of a part, and how far along it the part is cut.
+struct CutPlace {
+  std::size_t side;
+  double fraction;
+};
+
+/// Where another face becomes the nearer one: both halves are then near to one. Of strips that lie over strips, this
+/// leaves half of the parts that halves of the longest side do. Short sides would lead to ever shorter ones.
+CutPlace cut_place(const FarFromFaces::Part& part) {
+  constexpr double kShort = 0.25;  // of the bound
+  constexpr double kSteps = 16;    // with which a fraction and a coordinate are multiplied almost exactly
+  constexpr double kFewest = 2;    // of these steps
+  double greatest = kShort * upper(part);
+  CutPlace place{static_cast<std::size_t>(longest_side(part.corners)), 0.5};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const double from_i = part.distances[i][j] - part.distances[i][i],
+                 from_j = part.distances[j][i] - part.distances[j][j];
+    if (!(from_i > 0 && from_j > 0 && from_i + from_j > greatest)) continue;
+    greatest = from_i + from_j;
+    place = {i, std::clamp(std::round(kSteps * from_i / greatest), kFewest, kSteps - kFewest) / kSteps};
+  }
+  return place;
+}
+
 }  // namespace
 
 void FarFromFaces::add(const Triangle& t, const std::array<NearestFace::Found, 3>& nearest, Search& search) const {
@@ -198,19 +223,20 @@ NearestFace::Found FarFromFaces::look_at(const Vec3& p, Search& search, const Ne
 }
 
 void FarFromFaces::cut(const Part& part, Search& search) const {
-  const auto i = static_cast<std::size_t>(longest_side(part.corners)), j = (i + 1) % 3;
-  const Vec3 middle = part.corners[i] * 0.5 + part.corners[j] * 0.5;
+  const auto [i, fraction] = cut_place(part);
+  const std::size_t j = (i + 1) % 3;
+  const Vec3 p = part.corners[i] * (1 - fraction) + part.corners[j] * fraction;
   std::array<double, 3> distances;
-  for (std::size_t k = 0; k < 3; ++k) distances[k] = faces_.distance(middle, part.faces[k]);
+  for (std::size_t k = 0; k < 3; ++k) distances[k] = faces_.distance(p, part.faces[k]);
   Part one = part, other = part;
-  one.corners[j] = other.corners[i] = middle;
+  one.corners[j] = other.corners[i] = p;
   one.distances[j] = other.distances[i] = distances;
   if (search.is_enough(upper(one)) && search.is_enough(upper(other))) {
     search.add(one, upper(one)), search.add(other, upper(other));
     return;
   }
   const auto guess = static_cast<std::size_t>(std::ranges::min_element(distances) - distances.begin());
-  const NearestFace::Found found = look_at(middle, search, {part.faces[guess], distances[guess]});
+  const NearestFace::Found found = look_at(p, search, {part.faces[guess], distances[guess]});
   one.faces[j] = other.faces[i] = found.face;
   for (std::size_t k = 0; k < 3; ++k)
     one.distances[k][j] = other.distances[k][i] = faces_.distance(part.corners[k], found.face);

@@ -28,7 +28,7 @@ DistanceBounds unscaled(const DistanceBounds& bounds, double unit);
 
 /// How far bounds are off that were found in usable units: a closest point is computed from differences, within 16 eps
 /// of the largest coordinate for each of its own (a sum of three with factors in [0, 1]); its distance to p, and parts
-/// cut at rounded midpoints, add as much again.
+/// cut at rounded points, add as much again.
 inline double rounding_of_distances(double largest_coordinate) { return 64 * 0x1p-53 * largest_coordinate; }
 
 /// Of the faces of a mesh, which must outlive it. Distances are rounded.
@@ -81,7 +81,7 @@ class FarFromFaces {
   explicit FarFromFaces(const NearestFace& faces) : faces_(faces) {}
 
   void add(const Triangle& t, const std::array<NearestFace::Found, 3>& nearest, Search& search) const;
-  /// In two halves. Which face is nearest to the middle of the cut is asked only if the faces of the part leave a half
+  /// In two. Which face is nearest to where a side is cut is asked only if the faces of the part leave one of them
   /// open.
   void cut(const Part& part, Search& search) const;
 
