@@ -36,11 +36,32 @@ TriangleMesh tent_over(const TriangleMesh& flat, double height) {
   return cover::convex_hull_of(std::move(corners));
 }
 
+/// The convex hull has at least this volume: that of corners of faces which are extreme in 26 directions.
+double least_convex_volume(const TriangleMesh& mesh) {
+  std::vector<Vec3> directions{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const double s : {-1.0, 1.0}) {
+    for (const Vec3& d : {Vec3{1, s, 0}, {1, 0, s}, {0, 1, s}, {1, s, 1}, {1, s, -1}}) directions.push_back(d);
+  }
+  std::vector<Vec3> corners(2 * directions.size(), mesh.positions[mesh.triangles[FaceId{0}][0]]);
+  for (const auto& triangle : mesh.triangles) {
+    const Vec3& p = mesh.positions[triangle[0]];
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      Vec3 &lowest = corners[2 * i], &highest = corners[2 * i + 1];
+      const double height = dot(directions[i], p);
+      if (height < dot(directions[i], lowest)) lowest = p;
+      if (height > dot(directions[i], highest)) highest = p;
+    }
+  }
+  return signed_volume(cover::convex_hull_of(std::move(corners)));
+}
+
 }  // namespace
 
 std::optional<SolidId> Solids::convex_hull(std::optional<double> too_large) {
   if (convex_hull_ || has_no_convex_hull_) return convex_hull_;
   const TriangleMesh& points = request_.is_padded() ? request_.to_cover() : request_.input.original;
+  constexpr double kRounding = 1e-9;
+  if (too_large && has_mesh() && least_convex_volume(points) > (1 + kRounding) * *too_large) return std::nullopt;
   TriangleMesh convex = prohull::convex_hull(points);
   if (request_.is_padded()) {
     if (too_large && signed_volume(convex) + request_.aim() * area_of(convex) >= *too_large) return std::nullopt;
