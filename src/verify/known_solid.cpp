@@ -18,7 +18,8 @@ const FacePairs& KnownSolid::self_intersections(ProgressMeter& meter) {
 }
 
 bool KnownSolid::bounds_one(ProgressMeter& meter) {
-  if (!bounds_one_) bounds_one_ = is_outward_sheet(mesh_) && self_intersections(meter).empty();
+  if (!bounds_one_)
+    bounds_one_ = (outward_sheet_ ? *outward_sheet_ : is_outward_sheet(mesh_)) && self_intersections(meter).empty();
   return *bounds_one_;
 }
 

@@ -14,8 +14,9 @@ namespace prohull::verify {
 /// A closed mesh, and what is decided of it: once, when it is asked for first. One thread at a time may ask.
 class KnownSolid {
  public:
-  /// The mesh must outlive it. Messages call it `name`.
-  KnownSolid(const TriangleMesh& mesh, std::string name) : mesh_(mesh), name_(std::move(name)) {}
+  /// The mesh must outlive it. Messages call it `name`. `outward_sheet`: whether it is_outward_sheet, if that is known.
+  KnownSolid(const TriangleMesh& mesh, std::string name, std::optional<bool> outward_sheet = std::nullopt)
+      : mesh_(mesh), name_(std::move(name)), outward_sheet_(outward_sheet) {}
 
   const TriangleMesh& mesh() const { return mesh_; }
   const Surface& surface();  ///< good until the volume is asked for
@@ -33,6 +34,7 @@ class KnownSolid {
  private:
   const TriangleMesh& mesh_;
   const std::string name_;
+  const std::optional<bool> outward_sheet_;
   std::optional<Surface> surface_;
   std::optional<FacePairs> pairs_;
   std::optional<bool> bounds_one_;
