@@ -16,17 +16,19 @@
 #include "mesh/closed.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
+#include "verify/disk_stars.h"
 
 namespace prohull::verify {
 namespace {
 
 /// All pairs of some triangles of which the boxes overlap. The triangles lie along a Morton curve, and by fours in a
 /// tree of boxes: tests of boxes are most of the work.
-template <class TriangleOf>
+template <class TriangleOf, class AreApart>
 class PairSearch {
  public:
-  PairSearch(std::uint32_t count, const TriangleOf& triangle_of)
-      : triangle_of_(triangle_of), cube_(box_of_all(count, triangle_of)) {
+  /// are_apart(f, g) may know of two that they do not meet.
+  PairSearch(std::uint32_t count, const TriangleOf& triangle_of, const AreApart& are_apart)
+      : triangle_of_(triangle_of), are_apart_(are_apart), cube_(box_of_all(count, triangle_of)) {
     sort_faces(count);
     pack();
     cones_ = Cones(count, [&](std::uint32_t slot) { return triangle_of_(face_at_[slot]); });
@@ -72,7 +74,7 @@ class PairSearch {
         if (other == leaf) met &= ~1u << lane;
         for (; met != 0; met &= met - 1) {
           const std::uint32_t g = face_at_[kWidth * other + static_cast<std::uint32_t>(std::countr_zero(met))];
-          if (triangles_intersect(t, triangle_of_(g))) visit(std::min(f, g), std::max(f, g));
+          if (!are_apart_(f, g) && triangles_intersect(t, triangle_of_(g))) visit(std::min(f, g), std::max(f, g));
         }
       }
     }
@@ -126,17 +128,18 @@ class PairSearch {
   }
 
   const TriangleOf& triangle_of_;
+  const AreApart& are_apart_;
   UnitCube cube_;
   Cones cones_;
   std::vector<std::uint32_t> face_at_;
   FourWideTree levels_;  ///< over the faces in this order
 };
 
-template <class TriangleOf>
-FacePairs all_pairs(std::size_t count, const TriangleOf& triangle_of, ProgressMeter& meter) {
+template <class TriangleOf, class AreApart>
+FacePairs all_pairs(std::size_t count, const TriangleOf& triangle_of, const AreApart& are_apart, ProgressMeter& meter) {
   if (count == 0) return {};
   FacePairs pairs =
-      PairSearch(static_cast<FaceIndex>(count), triangle_of)
+      PairSearch(static_cast<FaceIndex>(count), triangle_of, are_apart)
           .template meeting<FacePairs>(
               meter, [](FacePairs& found, FaceIndex f, FaceIndex g) { found.emplace_back(f, g); },
               [](FacePairs& found, FacePairs other) { found.insert(found.end(), other.begin(), other.end()); });
@@ -148,21 +151,26 @@ FacePairs all_pairs(std::size_t count, const TriangleOf& triangle_of, ProgressMe
 
 FacePairs self_intersections(const Surface& surface, ProgressMeter& meter) {
   const auto triangle_of = [&](FaceIndex f) -> const Triangle& { return surface.faces[f]; };
-  return all_pairs(surface.faces.size(), triangle_of, meter);
+  return all_pairs(
+      surface.faces.size(), triangle_of, [](FaceIndex, FaceIndex) { return false; }, meter);
 }
 
 FacePairs self_intersections(const TriangleMesh& mesh, ProgressMeter& meter) {
   require_usable(mesh, "given");
+  const DiskStars stars(mesh);
   const auto triangle_of = [&](FaceIndex f) { return mesh.triangle(FaceId{f}); };
-  return all_pairs(mesh.face_count(), triangle_of, meter);
+  const auto are_apart = [&](FaceIndex f, FaceIndex g) { return stars.have_both(FaceId{f}, FaceId{g}); };
+  return all_pairs(mesh.face_count(), triangle_of, are_apart, meter);
 }
 
 std::size_t count_self_intersections(const TriangleMesh& mesh, ProgressMeter& meter) {
   require_usable(mesh, "given");
-  const auto triangle_of = [&](std::uint32_t f) { return mesh.triangle(FaceId{f}); };
-  return PairSearch(static_cast<std::uint32_t>(mesh.face_count()), triangle_of)
+  const DiskStars stars(mesh);
+  const auto triangle_of = [&](FaceIndex f) { return mesh.triangle(FaceId{f}); };
+  const auto are_apart = [&](FaceIndex f, FaceIndex g) { return stars.have_both(FaceId{f}, FaceId{g}); };
+  return PairSearch(static_cast<FaceIndex>(mesh.face_count()), triangle_of, are_apart)
       .template meeting<std::size_t>(
-          meter, [](std::size_t& found, std::uint32_t, std::uint32_t) { ++found; },
+          meter, [](std::size_t& found, FaceIndex, FaceIndex) { ++found; },
           [](std::size_t& found, std::size_t other) { found += other; });
 }
 

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
+#include "geometry/orientation.h"
 #include "random.h"
 
 namespace prohull {
@@ -54,6 +56,22 @@ TEST(Side, IsCyclicAndAntisymmetricOnNearlyCoplanarPoints) {
     ASSERT_EQ(side(b, c, a, p), s);
     ASSERT_EQ(side(b, a, c, p), opposite(s));
   }
+}
+
+// A tetrahedron has six times the volume that the determinant of side() is, also where it is nearly flat.
+TEST(VolumeSign, OfATetrahedronIsTheSideOfItsTip) {
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (const double scale : {0x1p-400, 0x1p-100, 1.0, 0x1p100, 0x1p320})
+    for (const double far : {0.0, 1e6})
+      for (int i = 0; i < 2000; ++i) {
+        std::array<Vec3, 3> t;
+        for (Vec3& p : t) p = Vec3{unit(random) + far, unit(random), unit(random)} * scale;
+        const auto& [a, b, c] = t;
+        const Vec3 tip = i % 2 == 0 ? a * 0.25 + b * 0.25 + c * 0.5 : Vec3{unit(random), unit(random), far} * scale;
+        const std::array faces{Triangle{a, c, b}, Triangle{a, b, tip}, Triangle{b, c, tip}, Triangle{c, a, tip}};
+        ASSERT_EQ(volume_sign(faces), static_cast<int>(exact_side(a, b, c, tip))) << scale;
+      }
 }
 
 TEST(Turn, IsCounterClockwiseSeenFromTheAxis) {

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "meshes.h"
@@ -51,6 +53,24 @@ TEST(SelfIntersections, AreCountedAroundVerticesOfManyFaces) {
     std::ranges::shuffle(mesh.triangles, random);
     EXPECT_EQ(count_self_intersections(mesh), expected) << "noise " << noise;
   }
+}
+
+// Around each tip the faces turn the same way, but twice around.
+TEST(SelfIntersections, AreCountedWhereFacesWindTwiceAroundAVertex) {
+  TriangleMesh mesh;
+  for (const double z : {1.0, -1.0}) mesh.positions.push_back({0.01, 0.02, z});
+  for (int i = 0; i < 5; ++i) {
+    const double angle = i * 4 * std::numbers::pi / 5;
+    mesh.positions.push_back({std::cos(angle), std::sin(angle), 0.01 * i});
+  }
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    const VertexId v{2 + i}, w{2 + (i + 1) % 5};
+    mesh.triangles.push_back({VertexId{0}, v, w});
+    mesh.triangles.push_back({VertexId{1}, w, v});
+  }
+  const std::size_t expected = oracle::self_intersections(mesh);
+  EXPECT_GT(expected, 0u);
+  EXPECT_EQ(count_self_intersections(mesh), expected);
 }
 
 TEST(SelfIntersections, OfBillionsOfPairsAroundAVertexFewAreTested) {
