@@ -440,12 +440,7 @@ std::vector<FaceId> faces_beside_the_solid(const Surface& surface, const Triangl
 // Beside an edge there are its two faces only, so without self-intersections each side of the surface is in one region
 // of space. One of the two regions is that outside of all, with a winding number of 0. Then that of the other one is 1
 // or -1, as the volume is.
-bool is_outward_sheet(const TriangleMesh& mesh) {
-  const auto triangle = [&](std::size_t f) { return mesh.triangle(FaceId(static_cast<std::uint32_t>(f))); };
-  for (const FaceId f : mesh.triangles.ids())
-    if (!projection_axis(mesh.triangle(f))) return false;
-  return is_one_sheet(mesh) && volume_sign(mesh.face_count(), triangle) > 0;
-}
+bool is_outward_sheet(const TriangleMesh& mesh) { return is_one_sheet(mesh) && volume_sign(mesh) > 0; }
 
 }  // namespace verify
 

@@ -10,7 +10,6 @@
 #include "mesh/closed.h"
 #include "prohull/detail/text.h"
 #include "prohull/enclosure.h"
-#include "verify/solids.h"
 #include "verify/surface.h"
 
 namespace prohull::verify {
@@ -45,11 +44,13 @@ PreparedOriginal prepare_original(TriangleMesh& mesh, std::vector<std::string>& 
     notes.push_back(fmt::format("{} of the original {} not finite and {} left out", counted(dropped, "face"),
                                 dropped == 1 ? "is" : "are", dropped == 1 ? "is" : "are"));
   result.box = usable_box(mesh, "original");
-  result.outward_sheet = is_outward_sheet(mesh);
-  result.closed = result.outward_sheet || is_closed(mesh);
-  if (result.outward_sheet || !result.closed) return result;
+  const bool is_sheet = is_one_sheet(mesh);
+  result.closed = is_sheet || is_closed(mesh);
+  result.outward_sheet = is_sheet && volume_sign(mesh) > 0;
+  if (!result.closed || result.outward_sheet) return result;
   const Turned turned = turn_outwards(mesh, "original");
   result.turned_faces = turned.faces;
+  result.outward_sheet = is_sheet && turned.faces > 0;
   if (turned.inwards < turned.faces)
     notes.push_back(
         fmt::format("{} of the original count as turned, as its volume is negative: {} of these look inwards",
@@ -68,7 +69,7 @@ Original::Original(const TriangleMesh& given, const TriangleMesh* closed)
       solid_(stand_in_      ? stand_in_->mesh
              : is_changed() ? *changed_
                             : given_,
-             "original", stand_in_ || facts_.turned_faces > 0 ? std::nullopt : std::optional(facts_.outward_sheet)) {
+             "original", stand_in_ ? std::nullopt : std::optional(facts_.outward_sheet)) {
   if (!facts_.closed) notes_.emplace_back(stand_in_ ? "the original is not closed" : kNotClosed);
   if (!is_changed()) changed_.reset();
 }

@@ -17,7 +17,7 @@ namespace prohull::verify {
 struct PreparedOriginal {
   Box box;
   bool closed = false;
-  bool outward_sheet = false;        ///< is_outward_sheet: closed, and nothing of it is to be turned
+  bool outward_sheet = false;        ///< is_outward_sheet, once it is turned
   std::size_t turned_faces = 0;      ///< to look outwards
   std::size_t non_finite_faces = 0;  ///< that were left out
 };

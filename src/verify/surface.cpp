@@ -42,7 +42,7 @@ Surface::Surface(const TriangleMesh& mesh, std::string_view name, Turning turnin
   }
   bvh = Bvh(std::move(boxes));
   volume = signed_volume(mesh);
-  if (turning == Turning::Outwards && volume_sign(faces) < 0) {
+  if (turning == Turning::Outwards && prohull::volume_sign(faces) < 0) {
     volume = -volume;
     for (Triangle& t : faces) std::swap(t.b, t.c);
     for (auto& c : corners) std::swap(c[1], c[2]);
@@ -120,7 +120,14 @@ Turned turn_outwards(TriangleMesh& mesh, std::string_view name, const See& see) 
 
 }  // namespace
 
+int volume_sign(const TriangleMesh& mesh) {
+  return prohull::volume_sign(mesh.face_count(),
+                              [&](std::size_t f) { return mesh.triangle(FaceId(static_cast<std::uint32_t>(f))); });
+}
+
 bool is_one_sheet(const TriangleMesh& mesh) {
+  for (const FaceId f : mesh.triangles.ids())
+    if (!projection_axis(mesh.triangle(f))) return false;
   const auto number = numbered_by_position(mesh.positions);
   struct Side {
     std::uint32_t to;

@@ -31,9 +31,12 @@ struct Surface {
   Surface() = default;
 };
 
-/// Whether all faces are connected by edges, matched by position, with two faces each that run along them in opposite
-/// directions. Requires what require_usable does.
+/// Whether all faces have an area and are connected by edges, matched by position, with two faces each that run along
+/// them in opposite directions. Requires what require_usable does.
 bool is_one_sheet(const TriangleMesh& mesh);
+
+/// Of a closed mesh. Exact.
+int volume_sign(const TriangleMesh& mesh);
 
 struct Turned {
   std::size_t faces = 0;    ///< that changed
