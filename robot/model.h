@@ -77,8 +77,8 @@ struct Mimic {
 
 /// How a link moves against its parent. In the frame of the parent, the frame of the child is at
 ///   origin * translation(anchor) * motion(axis, position) * translation(-anchor).
-/// A link with several joints (MJCF) has them in a row: the origin of the second is the identity, and its parent frame
-/// is where the first has moved the child.
+/// A link with several joints (MJCF) has them in a row: the parent frame of the second is where the first has moved the
+/// child.
 struct Joint {
   std::string name;
   JointType type = JointType::Fixed;
@@ -88,6 +88,7 @@ struct Joint {
   Vec3 axis{1, 0, 0};  ///< in the frame of the child, of length 1
   /// Radians, or metres of a prismatic joint; infinite where the file sets no limit.
   double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
+  double rest = 0;  ///< the position in which the model is drawn
   std::optional<Mimic> mimic = {};
   std::size_t line = 0;
 };

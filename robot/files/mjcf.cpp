@@ -176,7 +176,10 @@ class MjcfReader {
     const Vec3 axis = vector(element, "axis", {0, 0, 1});
     joint.axis = placed(Pose{element.frame.rotation, {}},
                         unit_vector(document_, *element.element, axis, fmt::format("the axis of '{}'", joint.name)));
-    if (joint.type == JointType::Revolute || joint.type == JointType::Prismatic) read_limits(element, joint);
+    if (moves(joint)) {
+      rest_at_ref(element, joint);
+      read_limits(element, joint);
+    }
     if (name && !by_name_.emplace(*name, listed_.size()).second)
       document_.refuse(*element.element, fmt::format("there is a second joint called '{}'", *name));
     listed_.push_back({std::move(joint), continues});
@@ -192,12 +195,20 @@ class MjcfReader {
     document_.refuse(*element.element, fmt::format("<joint> has the unknown type '{}'", type));
   }
 
-  /// The position at rest is `ref` in MuJoCo and 0 here.
+  double unit_of(const Joint& joint) const { return turns(joint) ? model_.compiler().angle_unit : 1; }
+
+  /// The bodies stand in the file where the joint is at `ref`.
+  void rest_at_ref(const MjcfElement& element, Joint& joint) const {
+    const std::vector<double> ref = mjcf_numbers(model_, element, "ref", 1, 1);
+    if (ref.empty() || ref[0] == 0) return;
+    joint.rest = bounded(document_, *element.element, {ref[0] * unit_of(joint), 0, 0}).x;
+    const Pose back = turns(joint) ? rotation_about(joint.axis, -joint.rest) : translation_by(joint.axis * -joint.rest);
+    const Pose at_anchor = composed(back, translation_by(-joint.anchor));
+    joint.origin = composed(joint.origin, composed(translation_by(joint.anchor), at_anchor));
+  }
+
   void read_limits(const MjcfElement& element, Joint& joint) const {
-    const bool turns = joint.type == JointType::Revolute;
-    const double unit = turns ? model_.compiler().angle_unit : 1;
     const std::vector<double> range = mjcf_numbers(model_, element, "range", 2, 2);
-    const std::vector<double> at_rest = mjcf_numbers(model_, element, "ref", 1, 1);
     const std::string* const limited = model_.value(element, "limited");
     const bool is_auto = !limited || *limited == "auto";
     const bool has_range = range.size() == 2 && range[0] < range[1];
@@ -207,14 +218,13 @@ class MjcfReader {
                                                      "larger number",
                                                      joint.name));
     if (!is_limited) {
-      if (turns) joint.type = JointType::Continuous;
+      if (turns(joint)) joint.type = JointType::Continuous;
       return;
     }
-    const double rest = at_rest.empty() ? 0 : at_rest[0];
-    joint.lower = (range[0] - rest) * unit, joint.upper = (range[1] - rest) * unit;
+    joint.lower = range[0] * unit_of(joint), joint.upper = range[1] * unit_of(joint);
   }
 
-  /// joint1 = a0 + a1 joint2 + ..., both counted from rest.
+  /// joint1 = a0 + a1 joint2 + ..., both counted from `ref`.
   void follow(const XmlElement& element) {
     const std::string* const active = element.attribute("active");
     if (active && *active == "false") return;
@@ -227,10 +237,10 @@ class MjcfReader {
     Joint& follower = listed_[joint_named(element, "joint1")].joint;
     const bool is_straight = a[2] == 0 && a[3] == 0 && a[4] == 0;
     if (!moves(follower) || follower.mimic) return skip(element);
-    if (!element.attribute("joint2")) return lock(follower, a[0]);
+    if (!element.attribute("joint2")) return lock(follower, follower.rest + a[0]);
     const std::size_t followed = joint_named(element, "joint2");
     if (!is_straight || !moves(listed_[followed].joint)) return skip(element);
-    follower.mimic = Mimic{followed, a[1], a[0]};
+    follower.mimic = Mimic{followed, a[1], follower.rest + a[0] - a[1] * listed_[followed].joint.rest};
   }
 
   static void lock(Joint& joint, double position) {

@@ -74,8 +74,9 @@ std::vector<double> rest_positions(const Robot& robot) {
   const std::vector<JointRange> allowed = allowed_ranges(robot);
   for (std::size_t j = 0; j < allowed.size(); ++j) {
     const JointRange range = allowed[j].is_empty() ? own_limits(robot.joints[j]) : allowed[j];
-    positions.push_back(range.contains(0) ? 0 : range.middle());
-    if (!std::isfinite(positions.back())) positions.back() = 0;
+    const double rest = robot.joints[j].rest;
+    positions.push_back(range.contains(rest) ? rest : range.middle());
+    if (!std::isfinite(positions.back())) positions.back() = rest;
   }
   return positions;
 }

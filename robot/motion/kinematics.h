@@ -16,8 +16,8 @@ Pose joint_pose(const Joint& joint, double position);
 /// other in a circle keep their positions. A ball, planar or floating joint stays at rest.
 std::vector<Pose> link_poses(const Robot& robot, std::span<const double> positions);
 
-/// Positions of all joints for pictures: 0, or the middle of the limits of a joint that cannot be at 0. The limits of
-/// joints that follow count, too.
+/// Positions of all joints for pictures: Joint::rest, or the middle of the limits of a joint that cannot be there. The
+/// limits of joints that follow count, too.
 std::vector<double> rest_positions(const Robot& robot);
 
 /// Sets the positions of all joints that mimic.

@@ -37,7 +37,7 @@ bool is_limited_slide(const Joint& joint) {
 
 double random_shift(const Joint& joint, double unit) {
   return is_limited_slide(joint) ? std::lerp(joint.lower, joint.upper, unit)
-                                 : std::min(std::max(0.0, joint.lower), joint.upper);
+                                 : std::min(std::max(joint.rest, joint.lower), joint.upper);
 }
 
 double random_position(const Joint& joint, double unit) {

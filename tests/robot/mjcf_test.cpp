@@ -178,10 +178,11 @@ TEST(Mjcf, ReadsJoints) {
   EXPECT_DOUBLE_EQ(j.lower, -kPi / 2);
   EXPECT_DOUBLE_EQ(j.upper, kPi);
   EXPECT_EQ(k.type, JointType::Prismatic);
-  EXPECT_EQ(k.origin, Pose{});
+  EXPECT_EQ(k.rest, 0.5);
+  EXPECT_EQ(k.origin.translation, (Vec3{-0.5, 0, 0})) << "the body stands where the joint is at its ref";
   EXPECT_EQ(k.child, j.child);
-  EXPECT_EQ(k.lower, -1.5);  // counted from rest
-  EXPECT_EQ(k.upper, 1.5);
+  EXPECT_EQ(k.lower, -1);
+  EXPECT_EQ(k.upper, 2);
   EXPECT_EQ(joint("d_weld").type, JointType::Fixed);
   EXPECT_EQ(joint("l").type, JointType::Continuous);
 }
@@ -222,6 +223,16 @@ TEST(Mjcf, JointsFollowOthersByEquality) {
   EXPECT_NE(file.notes.at(0).find("'l'"), std::string::npos);
   EXPECT_EQ(joints[3].lower, 0.25);
   EXPECT_EQ(joints[3].upper, 0.25);
+}
+
+TEST(Mjcf, JointsThatFollowCountFromTheirRefs) {
+  const RobotFile file = read(
+      "<mujoco><compiler angle='radian'/><default><joint ref='0.5'/></default><worldbody><body name='a'><body name='b'>"
+      "<joint name='j'/></body><body name='c'><joint name='k' ref='2'/></body><body name='d'><joint name='m'/></body>"
+      "</body></worldbody><equality><joint joint1='k' joint2='j' polycoef='0.25 -2'/>"
+      "<joint joint1='m' polycoef='0.25'/></equality></mujoco>");
+  EXPECT_EQ(file.robot.joints.at(1).mimic.value().offset, 2 + 0.25 + 2 * 0.5);
+  EXPECT_EQ(file.robot.joints.at(2).lower, 0.75);
 }
 
 TEST(Mjcf, BodiesOfOneWorldStandWhereTheyStand) {

@@ -107,6 +107,9 @@ TEST(RestPositions, AreZeroWhereLimitsAllowItAndTheMiddleElsewhere) {
   EXPECT_EQ(rest_positions(robot), (std::vector<double>{0, 0, 2, -2.5, 0}));
   const Robot gripper = robot_of(3, {limited(free, -2, 2), mimicking(limited(free, 1, 3), 0, 2, 0)});
   EXPECT_NEAR(rest_positions(gripper)[0], 1, 1e-12) << "so that both are within their limits";
+  Joint drawn = limited(free, -1, 3);
+  drawn.rest = 2;
+  EXPECT_EQ(rest_positions(robot_of(2, {drawn, limited(drawn, -1, 1)})), (std::vector<double>{2, 0}));
 }
 
 TEST(RandomPositions, KeepTheLimitsAndReachThem) {

@@ -9,6 +9,8 @@
 #include "prohull/mesh_query.h"
 #include "prohull/sample.h"
 #include "random.h"
+#include "robot/files/robot_file.h"
+#include "robot/motion/kinematics.h"
 #include "robot/robot_testing.h"
 
 namespace prohull::robot {
@@ -160,6 +162,60 @@ TEST_F(InMujoco, MshFilesAreReadAsMujocoReadsThem) {
   ASSERT_TRUE(model);
   EXPECT_EQ(model->mesh_facenum[0], int(part.face_count()));
   EXPECT_EQ(read_mesh(folder_ / "part.msh").face_count(), part.face_count());
+}
+
+/// The largest distance between where MuJoCo has the frames of the bodies, and where link_poses has them.
+double largest_deviation(const mjModel& model, mjData& data, const Robot& robot) {
+  std::vector<double> positions;
+  for (const Joint& joint : robot.joints) {
+    const int id = mj_name2id(&model, mjOBJ_JOINT, joint.name.c_str());
+    positions.push_back(id < 0 ? 0 : data.qpos[model.jnt_qposadr[id]]);
+  }
+  mj_kinematics(&model, &data);
+  const std::vector<Pose> poses = link_poses(robot, positions);
+  double largest = 0;
+  for (std::size_t link = 0; link < robot.links.size(); ++link) {
+    const int id = mj_name2id(&model, mjOBJ_BODY, robot.links[link].name.c_str());
+    EXPECT_GE(id, 0) << robot.links[link].name;
+    const mjtNum *const at = data.xpos + 3 * id, *const turn = data.xmat + 9 * id;
+    for (int row = 0; row < 3; ++row) {
+      largest = std::max(largest, std::abs(at[row] - poses[link].translation[row]));
+      for (int column = 0; column < 3; ++column)
+        largest = std::max(largest, std::abs(turn[3 * row + column] - poses[link].rotation[row][column]));
+    }
+  }
+  return largest;
+}
+
+TEST_F(InMujoco, BodiesStandWhereMujocoHasThem) {
+  const std::string turned = "pos='.1 .2 .3' euler='20 30 40'", geom = "<geom size='.1'/>";
+  write_bytes(folder_ / "arm.xml",
+              "<mujoco><compiler autolimits='true'/><default><default class='d'><joint ref='30' "
+              "springref='50'/></default></default><worldbody>"
+              "<body name='a'>" +
+                  geom + "<body name='b' " + turned + ">" + geom +
+                  "<joint name='j' pos='.1 .2 0' axis='1 2 3' class='d' range='-90 180'/>"
+                  "<joint name='k' type='slide' axis='1 1 0' ref='.5' range='-1 2'/>"
+                  "<joint name='l' ref='-70' pos='0 0 .4' axis='0 1 1'/>"
+                  "<body name='c' " +
+                  turned + ">" + geom +
+                  "<joint name='m' ref='10' axis='1 0 1'/></body></body>"
+                  "</body></worldbody></mujoco>");
+  const Model model = load(folder_ / "arm.xml");
+  ASSERT_TRUE(model);
+  const Robot robot = read_robot(folder_ / "arm.xml").robot;
+  const Data data(mj_makeData(model.get()), mj_deleteData);
+  EXPECT_LT(largest_deviation(*model, *data, robot), 1e-12) << "as it is drawn";
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> at(-2, 2);
+  for (int k = 0; k < 20; ++k) {
+    std::for_each(data->qpos, data->qpos + model->nq, [&](mjtNum& position) { position = at(random); });
+    EXPECT_LT(largest_deviation(*model, *data, robot), 1e-12);
+  }
+  for (int j = 0; j < 2; ++j) {
+    EXPECT_NEAR(robot.joints[j].lower, model->jnt_range[2 * j], 1e-12);
+    EXPECT_NEAR(robot.joints[j].upper, model->jnt_range[2 * j + 1], 1e-12);
+  }
 }
 
 }  // namespace
