@@ -306,7 +306,7 @@ void print_summary(const ConvexOptions& options, const PieceFiles& files, const 
       counted(outcome.input.components, "component"));
   for (const std::string& note : cover.notes) say("  {}\n", note);
   const double reach = cover.verdict.distance().upper;
-  say("{}: {}, {}, at most {:.4g} from the mesh ({:.3g} % of its diagonal){}{}\n", output_name(options.out),
+  say("{}: {}, {}, which reach out by at most {:.4g} ({:.3g} % of the diagonal){}{}\n", output_name(options.out),
       described_pieces(cover), described_size(cover), rounded_up(reach, 4),
       rounded_up(100 * reach / outcome.diagonal, 3), cover.fills_cavities ? " with cavities filled" : "",
       text_of_openings(cover.verdict.cap_faces > 0, *cover.verdict.distance_to_triangles));
@@ -495,8 +495,9 @@ void add_convex(CLI::App& app, Run& run) {
              "Largest number of pieces. With 1, the file of the piece has the name OUT, without a number.");
   add_number(command, "--vertices", cover.max_vertices, {4, 1e6}, "Largest number of vertices of a piece, at least 4.");
   add_length(command, "--max-distance", options->max_distance,
-             "Largest allowed distance of any point of the pieces from the mesh. What closes openings of the mesh "
-             "counts as mesh. With such a bound there are as few pieces as are found to keep it.");
+             "Largest allowed distance that the pieces may reach out of the mesh. Points of a piece that lie in other "
+             "pieces, or in the solid of the mesh, do not count. What closes openings of the mesh counts as mesh. With "
+             "such a bound there are as few pieces as are found to keep it.");
   add_optional_number(command, "--max-void", options->max_void_percent, kPositive,
                       "Largest allowed void, in per cent. The void is how much more volume the pieces have together "
                       "than the mesh. With such a bound there are as few pieces as are found to keep it.")

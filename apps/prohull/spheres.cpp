@@ -176,7 +176,7 @@ void add_spheres(CLI::App& app, Run& run) {
   constexpr double kMostSpheres = 100'000;
   add_number(command, "--count", options->cover.max_balls, {1, kMostSpheres}, "Number of spheres, at most.");
   add_length(command, "--max-distance", options->max_distance,
-             "Largest allowed distance of any point of the spheres from the mesh. What closes openings of the mesh "
+             "Largest allowed distance that the spheres may reach out of the mesh. What closes openings of the mesh "
              "counts as mesh. As few spheres as are found to keep it are taken, at most --count. The exit code is 1 if "
              "they do not keep it.");
   command.add_flag("--fill", options->cover.fill, "Cover the inside of the mesh too, not only its surface.");

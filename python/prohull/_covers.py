@@ -179,10 +179,10 @@ def convex_pieces(mesh: MeshLike, pieces: int = 16, *, vertices: int = 64, max_d
     mesh: the path of a file, or a mesh of prohull, trimesh or Open3D, or a tuple of vertices and faces.
     pieces: the largest number of pieces, at least 1.
     vertices: the largest number of vertices of a piece, at least 4.
-    max_distance: how far the union may reach out of the mesh, in the mesh's unit, at least 0; or as in
-        "0.5%" of the diagonal of the mesh's bounding box. It is proven. With this
-        bound or the next, the cover has as few pieces as keep both; if as many as `pieces` do not, `within_bounds` is
-        False.
+    max_distance: how far the union may reach out of the mesh, in the mesh's unit, greater than 0; or as in
+        "0.5%" of the diagonal of the mesh's bounding box. It is proven. Points of a piece that lie in other pieces, or
+        in the solid of the mesh, do not count. With this bound or the next, the cover has as few pieces as keep both; if
+        as many as `pieces` do not, `within_bounds` is False.
     max_void_percent: how much more volume than the mesh the union may have, in per cent, at least 0.
     shape: "polytope", or "box", "capsule" or "sphere" for pieces that have such a `primitive` around them where the
         bounds allow it.

@@ -10,7 +10,7 @@ convex="$prohull convex part.stl --pieces 4 --vertices 24"
 # --- one file with all pieces ---
 expect 0 "OBJ" $convex -o a.obj --report a.json
 says out "OBJ: the summary" "of at most"
-says out "OBJ: the summary" "of its diagonal"
+says out "OBJ: the summary" "which reach out by at most"
 says out "OBJ: the summary" "certified: yes, the union of the pieces as written encloses the original"
 says a.json "the report" '"certified": true'
 says a.json "the report" '"a.obj"'

@@ -11,6 +11,7 @@
 #include "prohull/error.h"
 #include "prohull/sample.h"
 #include "random.h"
+#include "verify/nearest_face.h"
 #include "verify/oracle.h"
 #include "verify/random_chains.h"
 
@@ -419,6 +420,34 @@ TEST(UnionReach, FromOpenTrianglesIsThatOfTheSurfaceOfTheUnion) {
   const DistanceBounds found = union_reach(balls, open);
   EXPECT_GT(found.lower, 2.4);
   EXPECT_LT(found.upper, 2.6);
+}
+
+TEST(UnionReach, NoPointOfTheSurfaceOfAUnionAroundOpenTrianglesIsFarther) {
+  const TriangleMesh open{{{0.2, 0.3, 0.5}, {0.8, 0.3, 0.4}, {0.5, 0.7, 0.6}},
+                          {{VertexId{0}, VertexId{1}, VertexId{2}}}};
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> at(0, 1);
+  const auto point = [&] { return Vec3{at(random), at(random), at(random)}; };
+  Pieces pieces;
+  std::vector<Box> boxes;
+  for (int i = 0; i < 12; ++i) {
+    const Vec3 low = point() * 0.6, high = low + Vec3{0.1, 0.1, 0.1} + point() * 0.3;
+    pieces.push_back(box(low, high));
+    boxes.push_back({low, high});
+  }
+  const DistanceBounds reach = union_reach(pieces, open);
+  const verify::NearestFace nearest(open);
+  int exposed = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const TriangleMesh& piece = pieces[i % pieces.size()];
+    const Triangle t = piece.triangle(FaceId{std::uint32_t(random() % piece.face_count())});
+    const double u = at(random), v = at(random) * (1 - u);
+    const Vec3 p = t.a + (t.b - t.a) * u + (t.c - t.a) * v;
+    if (std::ranges::count_if(boxes, [&](const Box& b) { return b.contains(p); }) > 1) continue;
+    ++exposed;
+    EXPECT_LE(nearest.nearest(p, 0).distance, reach.upper);
+  }
+  EXPECT_GT(exposed, 1000);
 }
 
 // The small piece lies at the corner that is farthest away. Its faces have no normals in double precision.
