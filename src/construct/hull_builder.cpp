@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "construct/checked_options.h"
@@ -49,8 +50,8 @@ void check_tolerances(const TriangleMesh& mesh, const HullOptions& options) {
     throw InputError(Defect::InvalidOption,
                      fmt::format("{} deviations for {} vertices: there must be one for each vertex",
                                  options.deviations.size(), mesh.positions.size()));
-  if (!std::ranges::all_of(options.deviations, [](double deviation) { return deviation >= 0; }))
-    throw InputError(Defect::InvalidOption, "deviations must be at least 0");
+  if (!std::ranges::all_of(options.deviations, [](double d) { return d >= 0 && std::isfinite(d); }))
+    throw InputError(Defect::InvalidOption, "deviations must be numbers of at least 0");
   const auto kept = static_cast<std::size_t>(std::ranges::count(tolerances, 0.0));
   if (kept > options.target_faces)
     throw InputError(Defect::InvalidOption,

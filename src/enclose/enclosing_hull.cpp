@@ -85,12 +85,22 @@ EnclosingHulls best_hulls(Request request, std::span<const std::size_t> target_f
   return made;
 }
 
-void require_usable_padding(const EnclosingOptions& options) {
+void require_usable_bounds(const HullBounds& b) {
+  if (!(b.max_distance >= 0 && b.max_void_ratio >= 0 && b.max_added_volume >= 0))
+    throw InputError(Defect::InvalidOption, "the largest distance, void and added volume must be at least 0");
+}
+
+void require_usable_lengths(const EnclosingOptions& options) {
   const auto refuse = [](const std::string& what) { throw InputError(Defect::InvalidOption, what); };
   constexpr double kRoom = 64;  // for the corners of hulls, in paddings
-  const double most = options.hull.float32_coordinates ? double(std::numeric_limits<float>::max()) : kLargestCoordinate;
-  if (!(options.padding >= 0 && options.padding <= most / kRoom))
-    refuse(fmt::format("the gap is {:g}; it must be a number from 0 to {:.3g}", options.padding, most / kRoom));
+  const double most =
+      (options.hull.float32_coordinates ? double(std::numeric_limits<float>::max()) : kLargestCoordinate) / kRoom;
+  const auto require = [&](double length, const char* name) {
+    if (!(length >= 0 && length <= most))
+      refuse(fmt::format("the {} is {:g}; it must be a number from 0 to {:.3g}", name, length, most));
+  };
+  require(options.padding, "gap");
+  require(options.seal_holes, "largest diameter of holes to seal");
   if (options.padding > 0 && options.bounds.max_distance <= options.padding)
     refuse(
         fmt::format("a hull that keeps a gap of {:g} is farther than {:g} from the mesh: the largest distance must be "
@@ -183,7 +193,8 @@ EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size
   if (options.tight && options.levels)
     throw InputError(Defect::InvalidOption, "a tight hull has no levels: ask for one of the two");
   require_usable_size(finite_bounding_box(triangles));
-  require_usable_padding(options);
+  require_usable_bounds(options.bounds);
+  require_usable_lengths(options);
   require_usable_tolerances(triangles, options);
   require_usable_mirror(options);
   if (options.hull.side == HullSide::Inner && (options.repair == Repair::Wrap || options.seal_holes > 0))

@@ -200,14 +200,17 @@ TEST(BuildHullOptions, SelfIntersectionsAreRefusedByStrategyUnlessTold) {
 
 TEST(BuildHullOptions, OutOfTheirRangesAreRefused) {
   const TriangleMesh mesh = octahedron();
-  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   for (const HullOptions& wrong :
        {HullOptions{.target_faces = 3}, HullOptions{.target_faces = 0}, HullOptions{.guards = {.max_valence = 2}},
         HullOptions{.guards = {.min_compactness_ratio = -0.1}}, HullOptions{.guards = {.min_compactness_ratio = 1.1}},
         HullOptions{.guards = {.min_compactness_ratio = nan}}, HullOptions{.guards = {.sufficient_compactness = -1}},
         HullOptions{.guards = {.sufficient_compactness = 2}}, HullOptions{.guards = {.sufficient_compactness = nan}},
         HullOptions{.guards = {.max_normal_deviation = -0.1}}, HullOptions{.guards = {.max_normal_deviation = 1.6}},
-        HullOptions{.guards = {.max_normal_deviation = nan}}}) {
+        HullOptions{.guards = {.max_normal_deviation = nan}}, HullOptions{.guards = {.max_overhang = nan}},
+        HullOptions{.tolerances = PerFace<double>(8, nan)},
+        HullOptions{.tolerances = PerFace<double>(8, 1), .deviations = PerVertex<double>(6, nan)},
+        HullOptions{.tolerances = PerFace<double>(8, 1), .deviations = PerVertex<double>(6, infinity)}}) {
     try {
       build_hull(mesh, wrong);
       ADD_FAILURE();

@@ -143,6 +143,38 @@ TEST(EnclosingHull, RefusesWhatCannotBeDone) {
   EXPECT_THROW(hull_of({}, 100), InputError);
 }
 
+TEST(EnclosingHullOptions, ThatAreNoNumbersOrHaveNoEndAreRefused) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  const TriangleMesh mesh = octahedron();
+  const auto expect_refused = [&](const EnclosingOptions& options) {
+    try {
+      hull_of(mesh, 4, options);
+      ADD_FAILURE();
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.defect(), Defect::InvalidOption) << error.what();
+    }
+  };
+  for (const double wrong : {nan, infinity, -1.0}) {
+    expect_refused({.padding = wrong});
+    expect_refused({.seal_holes = wrong});
+    expect_refused({.repair = Repair::Wrap, .seal_holes = wrong});
+    expect_refused({.hull = {.guards = {.min_compactness_ratio = wrong}}});
+    expect_refused({.hull = {.guards = {.sufficient_compactness = wrong}}});
+    expect_refused({.hull = {.guards = {.max_normal_deviation = wrong}}});
+  }
+  for (const double wrong : {nan, -1.0}) {
+    expect_refused({.bounds = {.max_distance = wrong}});
+    expect_refused({.bounds = {.max_void_ratio = wrong}});
+    expect_refused({.bounds = {.max_added_volume = wrong}});
+    expect_refused({.hull = {.guards = {.max_overhang = wrong}}});
+    expect_refused({.hull = {.tolerances = PerFace<double>(mesh.face_count(), wrong)}});
+  }
+  EXPECT_TRUE(hull_of(mesh, 4, {.hull = {.guards = {.max_overhang = infinity}}}).hulls[0].certified);
+  EXPECT_TRUE(
+      hull_of(mesh, 4, {.hull = {.tolerances = PerFace<double>(mesh.face_count(), infinity)}}).hulls[0].certified);
+  EXPECT_TRUE(hull_of(mesh, 4, {.repair = Repair::Wrap, .seal_holes = 1e90}).hulls[0].certified);
+}
+
 TEST(EnclosingHull, OfAMeshWithAnOpeningIsSolid) {
   const EnclosingHulls made = hull_of(room(), 300);
   const EnclosingHull hull = only(made);
