@@ -54,15 +54,15 @@ void require_links(const Robot& robot, const LinkHullOptions& options) {
 
 [[noreturn]] void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
 
-void require_possible(const Link& link, const Budget& budget) {
+/// `of` says which links have the budget.
+void require_possible(const std::string& of, const Budget& budget) {
   if (budget.max_distance > 0 && budget.max_distance <= budget.padding)
     refuse(
-        fmt::format("link {}: a hull that keeps a gap of {:g} is farther than {:g} from the link: the largest "
-                    "distance must be greater than the gap",
-                    link.name, budget.padding, budget.max_distance));
+        fmt::format("{}a hull that keeps a gap of {:g} is farther than {:g} from its link: the largest distance must "
+                    "be greater than the gap",
+                    of, budget.padding, budget.max_distance));
   if (budget.collision == Collision::Hull) return;
-  const std::string where =
-      fmt::format("link {}: collision '{}'", link.name, prohull::name_of(collision_names(), budget.collision));
+  const std::string where = fmt::format("{}collision '{}'", of, prohull::name_of(collision_names(), budget.collision));
   if (budget.padding > 0) refuse(where + " takes no gap; use hulls, or let the planner add it");
   if (budget.faces.size() > 1) refuse(where + " comes in one set; say one number of faces, or use hulls");
 }
@@ -327,7 +327,8 @@ void check_budgets(const Robot& robot, const LinkHullOptions& options) {
   for (const Link& link : robot.links) {
     const Budget& budget = options.budget_of(link.name);
     has_hull |= budget.collision == Collision::Hull;
-    if (!budget.skip) require_possible(link, budget);
+    const bool is_own = options.budgets.contains(link.name);
+    if (!budget.skip) require_possible(is_own ? fmt::format("link {}: ", link.name) : "", budget);
   }
   if (options.tight && !has_hull) refuse("--tight is about hulls; no link has one");
 }

@@ -20,6 +20,7 @@
 #include "prohull/union_verification.h"
 #include "robot/hulls/cache.h"
 #include "robot/motion/bodies.h"
+#include "robot/robot_testing.h"
 #include "robot/transform.h"
 #include "robot_folder.h"
 #include "robot_testing.h"
@@ -169,6 +170,16 @@ TEST_F(LinkHullsTest, RefuseWhatOnlyHullsCanHave) {
   options_.budgets.clear();
   options_.budget.collision = Collision::Spheres, options_.tight = true;
   refused("--tight is about hulls");
+}
+
+TEST_F(LinkHullsTest, TellTheLinkOfAnImpossibleBudgetOfItsOwn) {
+  const auto refusal = [&] { return refusal_of([&] { link_hulls(robot_, options_); }, Defect::InvalidOption); };
+  const std::string why = "a hull that keeps a gap of 0.005 is farther than 0.005 from its link";
+  options_.budgets["arm"] = {.max_distance = 0.005, .padding = 0.005};
+  EXPECT_EQ(refusal().rfind("link arm: " + why, 0), 0U) << refusal();
+  options_.budget = options_.budgets["arm"];
+  options_.budgets.clear();
+  EXPECT_EQ(refusal().rfind(why, 0), 0U) << refusal();
 }
 
 TEST_F(LinkHullsTest, SayWhichMeshesAreMissing) {
