@@ -135,7 +135,10 @@ class LinkChecker {
     }
   }
 
-  void note(std::string sentence) { check_.notes.push_back(std::move(sentence)); }
+  /// Once: the visual and the collision geometry may name one file.
+  void note(std::string sentence) {
+    if (std::ranges::find(check_.notes, sentence) == check_.notes.end()) check_.notes.push_back(std::move(sentence));
+  }
 
   Pose pose_of(const Shape& shape) const { return pose_in(frame_, shape); }
 
