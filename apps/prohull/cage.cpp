@@ -99,7 +99,14 @@ void print_input(const CageRunOptions& options, const Cage& cage) {
   for (const std::string& note : cage.notes) say("  {}\n", note);
 }
 
-void print_hull(const Cage& cage, const File& file) {
+/// What an inner hull keeps less than the gap.
+std::string text_of_missed_gap(double gap, bool is_asked) {
+  if (is_asked) return fmt::format("; NOT the {:.6g} asked for: no inner hull that keeps it was found", gap);
+  return fmt::format("; NOT the {:.6g} of the outer hull: with --gap, an inner hull may keep it, with less volume",
+                     gap);
+}
+
+void print_hull(const Cage& cage, const File& file, bool gap_is_asked) {
   const EnclosingHull& hull = file.hull->hull();
   say("{}: {} hull of {}{}\n", output_name(file.path), file.side, counted(hull.mesh.face_count(), "face"),
       described_void(file.hull->made, hull));
@@ -110,9 +117,7 @@ void print_hull(const Cage& cage, const File& file) {
   if (hull.self_intersections > 0)
     say("  NOT free of self-intersections: {}\n", counted(hull.self_intersections, "pair of faces", "pairs of faces"));
   say("  gap: at least {:.6g}, proven{}\n", rounded_down(hull.padding, 6),
-      file.hull->keeps_gap
-          ? ""
-          : fmt::format("; NOT the {:.6g} asked for: no {} hull that keeps it was found", cage.gap, file.side));
+      file.hull->keeps_gap ? "" : text_of_missed_gap(cage.gap, gap_is_asked));
   say("  certified: {}\n", certificate_of(file.verdict));
 }
 
@@ -197,7 +202,7 @@ int run_cage(CageRunOptions options) {
   outputs.commit();
   print_input(options, cage);
   for (const File& file : files) {
-    print_hull(cage, file);
+    print_hull(cage, file, options.cage.gap > 0);
     if (file.verdict.certified && !options.certificate.empty())
       print_certificate(file.certificate_path, file.certificate, {file.path}, options.in);
   }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 #include "construct/even/even_hull.h"
@@ -45,6 +47,8 @@ class CageMaker {
  private:
   EnclosingHulls build(HullSide side, Repair repair, std::size_t faces, double padding) const;
   EnclosingHulls outer_hull(std::size_t faces) const;
+  std::optional<EnclosingHulls> hull_moved_inwards(std::size_t faces) const;
+  std::optional<EnclosingHulls> hull_with_gap(std::size_t faces) const;
   EnclosingHulls inner_hull(std::size_t faces) const;
   EnclosingHulls hull(HullSide side, std::size_t faces) const;
   EnclosingHulls even_hull(HullSide side, std::size_t faces) const;
@@ -69,15 +73,38 @@ EnclosingHulls CageMaker::outer_hull(std::size_t faces) const {
 }
 
 // Where the hull cannot move inwards, one with fewer faces may: of a teapot, one of 100 where those of 200 and more
-// touch themselves. Of boxes that overlap, only one that keeps the gap from the beginning lies inside.
-EnclosingHulls CageMaker::inner_hull(std::size_t faces) const {
+// touch themselves.
+std::optional<EnclosingHulls> CageMaker::hull_moved_inwards(std::size_t faces) const {
   for (const std::size_t fewer : {faces, faces / 2, faces / 4, faces / 8}) {
     EnclosingHulls made = build(HullSide::Inner, Repair::Auto, std::max<std::size_t>(fewer, 4), 0);
     made.hulls[0].target_faces = faces;
     if (move_inwards(made)) return made;
   }
+  return std::nullopt;
+}
+
+std::optional<EnclosingHulls> CageMaker::hull_with_gap(std::size_t faces) const try {
   EnclosingHulls made = build(HullSide::Inner, Repair::Auto, faces, cage_.gap);
   if (accept(made, HullSide::Inner, TriangleMesh(made.hulls[0].mesh))) return made;
+  return std::nullopt;
+} catch (const InputError& error) {
+  if (error.defect() != Defect::NoCertificate) throw;
+  return std::nullopt;
+}
+
+// Of boxes that overlap, only a hull that keeps the gap from the beginning lies inside. Of thin parts, it has far more
+// void: of an elephant 65 % for 27. So it takes the place of one that keeps less only where the gap was asked for.
+EnclosingHulls CageMaker::inner_hull(std::size_t faces) const {
+  const auto merits = [&](const EnclosingHulls& made) {
+    const EnclosingHull& hull = made.hulls[0];
+    return std::tuple(options_.gap == 0 || hull.padding >= cage_.gap, hull.target_reached, hull.verdict.hull_volume);
+  };
+  std::optional<EnclosingHulls> best = hull_moved_inwards(faces);
+  if (!best || best->hulls[0].padding < cage_.gap || !best->hulls[0].target_reached) {
+    std::optional<EnclosingHulls> plain = hull_with_gap(faces);
+    if (plain && (!best || merits(*plain) > merits(*best))) best = std::move(plain);
+  }
+  if (best) return std::move(*best);
   throw InputError(
       Defect::NoCertificate,
       fmt::format("no inner hull of at most {} faces was found that lies strictly inside of the mesh: use another "

@@ -36,7 +36,7 @@ says out "a gap that the inner hull does not keep" "NOT the 0.5 asked for: no in
 printf 'OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1e-5\n1 0 1e-5\n1 1 1e-5\n0 1 1e-5\n' >plate.off
 printf '4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n' >>plate.off
 expect 0 "a plate of a hundredth of the gap" $prohull cage plate.off -o far.obj --inner near.obj
-says out "a plate of a hundredth of the gap" "no inner hull that keeps it was found"
+says out "a plate of a hundredth of the gap" "with --gap, an inner hull may keep it, with less volume"
 
 # --- what cannot be ---
 expect 2 "no inner hull, but its faces" $cage -o a.obj --inner-faces 100

@@ -77,6 +77,15 @@ TEST(Cage, TakesFewerFacesWhereTheInnerHullNeedsThat) {
   EXPECT_LE(cage.inner->hull().mesh.face_count(), 200u);
 }
 
+TEST(Cage, InnerHullsAreNoWorseThanThoseOfTheSameGap) {
+  const TriangleMesh bracket = make_sample("bracket", 500);
+  const Cage cage = build_cage(bracket, {.outer_faces = 60, .inner_faces = 60, .gap = 0.2});
+  expect_cage(bracket, cage);
+  EXPECT_TRUE(cage.inner->keeps_gap);
+  EXPECT_TRUE(cage.inner->hull().target_reached);
+  EXPECT_LE(cage.inner->hull().mesh.face_count(), 60u);
+}
+
 // Hulls without a gap share the planes of a box.
 TEST(Cage, OfABoxTouchesNothing) {
   const Cage cage = build_cage(unit_box(), {.outer_faces = 12, .inner_faces = 12, .gap = 0.25});
