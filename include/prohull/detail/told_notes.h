@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "prohull/convex_cover.h"
 #include "prohull/enclosing_hull.h"
+#include "prohull/sphere_cover.h"
 
 namespace prohull {
 
@@ -25,10 +27,16 @@ inline std::vector<std::string> told_notes(const EnclosingHull& hull, const Encl
   return notes;
 }
 
-/// Of a ConvexCover or a SphereCover.
-template <class Cover>
-std::vector<std::string> told_notes(const Cover& cover) {
+inline std::vector<std::string> told_notes(const SphereCover& cover) {
   std::vector<std::string> notes = cover.notes;
+  add_note_of_estimate(cover.is_estimated && cover.original_volume > 0, notes);
+  return notes;
+}
+
+inline std::vector<std::string> told_notes(const ConvexCover& cover) {
+  std::vector<std::string> notes = cover.notes;
+  if (!cover.within_bounds)
+    notes.emplace_back("the pieces are not within the bounds asked for: no cover that was tried is");
   add_note_of_estimate(cover.is_estimated && cover.original_volume > 0, notes);
   return notes;
 }
