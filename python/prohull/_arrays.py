@@ -105,16 +105,13 @@ def indices(name: str, values: ArrayLike) -> NDArray[np.int64]:
 
 def rays(origins: ArrayLike, directions: ArrayLike) -> NDArray[np.float64]:
     """Rows of an origin and a direction, shape (n, 6); a single one, of shape (3,), is repeated for all others."""
-    origins, directions = _numbers("origins", origins), _numbers("directions", directions)
-    for name, array in (("origins", origins), ("directions", directions)):
-        if array.shape[-1:] != (3,) or array.ndim > 2:
-            raise InputError(f"{name}: an array of shape {array.shape}; expected (n, 3) or (3,)")
-    counts = {array.shape[0] for array in (origins, directions) if array.ndim == 2} or {1}
+    starts, ways = points(origins, "origins"), points(directions, "directions")
+    counts = {len(made) for given, made in ((origins, starts), (directions, ways)) if np.ndim(given) == 2} or {1}
     if len(counts) > 1:
-        raise InputError(f"origins of shape {origins.shape} and directions of shape {directions.shape}: "
+        raise InputError(f"origins of shape {starts.shape} and directions of shape {ways.shape}: "
                          "expected as many of the ones as of the others")
     both = np.empty((counts.pop(), 6))
-    both[:, :3], both[:, 3:] = origins, directions
+    both[:, :3], both[:, 3:] = starts, ways
     return both
 
 
@@ -127,9 +124,10 @@ def with_length(lines: NDArray[np.float64], are_rays: bool) -> NDArray[np.float6
     return lines
 
 
-def points(values: Any) -> NDArray[np.float64]:
+def points(values: Any, name: str = "points") -> NDArray[np.float64]:
     """Rows of shape (n, 3); a single point is the only row."""
-    return rows("points", [values] if np.shape(array("points", values)) == (3,) else values, (3,))
+    given = array(name, values)
+    return rows(name, given[np.newaxis] if given.shape == (3,) else given, (3,))
 
 
 def names(name: str, values: Any) -> list[str]:

@@ -136,3 +136,13 @@ def test_masked_numbers_are_refused(cube):
 def test_progress_is_called(pony):
     with pytest.raises(TypeError, match="progress must be callable, or None; it is of type int"):
         prohull.build(pony, 200, progress=3)
+
+
+@pytest.mark.parametrize("dtype", [np.int64, np.uint64])
+def test_rays_are_not_rounded(cube, dtype):
+    mesh, far = prohull.Mesh(*cube), np.array([2**53 + 1, 1, 1], dtype)
+    for origins in (far, far[np.newaxis]):
+        with pytest.raises(prohull.InputError, match="origins: 9007199254740993 is no float64 number"):
+            mesh.first_hit(origins, [-1, 0, 0])
+        with pytest.raises(prohull.InputError, match="directions: 9007199254740993 is no float64 number"):
+            mesh.first_hit([5, 1, 1], origins)
