@@ -87,6 +87,13 @@ bool Given::not_negative(const char* name, double& to) const {
   return to = given, true;
 }
 
+bool Given::positive(const char* name, double& to) const {
+  double given = 0;
+  if (!number(name, given)) return false;
+  if (!(given > 0)) refuse(name, "a number greater than 0");
+  return to = given, true;
+}
+
 bool Given::whole(const char* name, double least, double most, double& to) const {
   double given = 0;
   if (!number(name, given)) return false;

@@ -44,6 +44,7 @@ class Given {
   bool threads(unsigned&) const { return false; }  ///< there is one
   bool number(const char* name, double& to) const;
   bool not_negative(const char* name, double& to) const;
+  bool positive(const char* name, double& to) const;
   bool text(const char* name, std::string& to) const;
   bool numbers(const char* name, PerFace<double>& to) const;
   template <class T>

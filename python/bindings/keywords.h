@@ -37,6 +37,11 @@ class Keywords {
     if (!(to >= 0)) refuse(name, "a number, at least 0");
     return true;
   }
+  bool positive(const char* name, double& to) const {
+    number(name, to);
+    if (!(to > 0)) refuse(name, "a number greater than 0");
+    return true;
+  }
   bool numbers(const char* name, PerFace<double>& to) const {
     return to = PerFace<double>(get<std::vector<double>>(name, "a number for each face")), true;
   }

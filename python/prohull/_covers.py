@@ -183,7 +183,7 @@ def convex_pieces(mesh: MeshLike, pieces: int = 16, *, vertices: int = 64, max_d
         "0.5%" of the diagonal of the mesh's bounding box. It is proven. Points of a piece that lie in other pieces, or
         in the solid of the mesh, do not count. With this bound or the next, the cover has as few pieces as keep both; if
         as many as `pieces` do not, `within_bounds` is False.
-    max_void_percent: how much more volume than the mesh the union may have, in per cent, at least 0.
+    max_void_percent: how much more volume than the mesh the union may have, in per cent, greater than 0.
     shape: "polytope", or "box", "capsule" or "sphere" for pieces that have such a `primitive` around them where the
         bounds allow it.
     float32_coordinates: whether all coordinates shall be numbers that float32 keeps, as STL and GLB files do.

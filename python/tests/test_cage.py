@@ -20,6 +20,9 @@ def test_triangles_are_even_on_demand():
 
 
 def test_wrong_arguments_are_named():
+    for faces in (-1, 0, 3):
+        with pytest.raises(prohull.InputError, match=f"faces={faces}: expected a whole number, at least 4"):
+            prohull.cage(prohull.sample("torus", 800), faces)
     with pytest.raises(prohull.InputError, match="gap"):
         prohull.cage(prohull.sample("torus", 800), gap=-1)
     with pytest.raises(prohull.InputError, match="missing.stl"):

@@ -169,13 +169,15 @@ def test_progress_is_told_and_can_stop(small, work):
     (prohull.convex_pieces, {"pieces": 10**12}, "pieces=1000000000000: .* less than 2\\^32"),
     (prohull.convex_pieces, {"pieces": "many"}, "pieces='many': expected a whole number"),
     (prohull.convex_pieces, {"vertices": 3}, "vertices=3: expected a whole number, at least 4"),
-    (prohull.convex_pieces, {"max_distance": -1}, "max_distance=-1: expected a number, at least 0"),
+    (prohull.convex_pieces, {"max_distance": -1}, "max_distance=-1: expected a number greater than 0"),
+    (prohull.convex_pieces, {"max_distance": 0}, "max_distance=0: expected a number greater than 0"),
+    (prohull.convex_pieces, {"max_void_percent": 0}, "max_void_percent=0: expected a number greater than 0"),
     (prohull.convex_pieces, {"max_void_percent": np.nan}, "max_void_percent=nan"),
     (prohull.convex_pieces, {"shape": "egg"}, "shape='egg': expected one of polytope, box, capsule, sphere"),
     (prohull.convex_pieces, {"float32_coordinates": "yes"}, "float32_coordinates='yes': expected True or False"),
     (prohull.spheres, {"count": 0}, "count=0: expected a whole number, at least 1"),
     (prohull.spheres, {"count": 1.5}, "count=1.5: expected a whole number"),
-    (prohull.spheres, {"max_distance": -1}, "max_distance=-1"),
+    (prohull.spheres, {"max_distance": 0}, "max_distance=0: expected a number greater than 0"),
     (prohull.spheres, {"fill": "yes"}, "fill='yes': expected True or False"),
 ])
 def test_wrong_options_are_named(cube, function, options, message):

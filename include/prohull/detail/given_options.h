@@ -17,12 +17,6 @@ namespace prohull {
 // it is wrong.
 
 template <class Given>
-void take_bounds(const Given& given, HullBounds& bounds) {
-  given.not_negative("max_distance", bounds.max_distance);
-  if (given.not_negative("max_void_percent", bounds.max_void_ratio)) bounds.max_void_ratio /= 100;
-}
-
-template <class Given>
 EnclosingOptions enclosing_options(const Given& given) {
   EnclosingOptions options;
   HullOptions& hull = options.hull;
@@ -30,7 +24,7 @@ EnclosingOptions enclosing_options(const Given& given) {
   given.choice_or_none("mirror", axis_names(), hull.mirror);
   given.choice("strategy", strategy_names(), hull.strategy);
   given.choice("self_intersections", self_intersections_names(), hull.self_intersections);
-  given.count("max_valence", hull.guards.max_valence);
+  given.count("max_valence", hull.guards.max_valence, 3);
   given.number("min_compactness_ratio", hull.guards.min_compactness_ratio);
   given.number("sufficient_compactness", hull.guards.sufficient_compactness);
   if (double degrees = 0; given.number("max_normal_deviation_degrees", degrees))
@@ -42,9 +36,10 @@ EnclosingOptions enclosing_options(const Given& given) {
   given.seed("seed", hull.seed);
   given.threads(hull.threads);
   given.numbers("tolerances", hull.tolerances);
-  take_bounds(given, options.bounds);
+  given.not_negative("max_distance", options.bounds.max_distance);
+  if (given.not_negative("max_void_percent", options.bounds.max_void_ratio)) options.bounds.max_void_ratio /= 100;
   given.not_negative("gap", options.padding);
-  given.count("best_of", options.best_of);
+  given.count("best_of", options.best_of, 1);
   given.flag("tight", options.tight);
   given.flag("levels", options.levels);
   given.choice("repair", repair_names(), options.repair);
@@ -57,7 +52,7 @@ EnclosingOptions enclosing_options(const Given& given) {
 template <class Given>
 CageOptions cage_options(const Given& given) {
   CageOptions options;
-  given.count("faces", options.outer_faces);
+  given.count("faces", options.outer_faces, 4);
   given.count("inner_faces", options.inner_faces);
   given.not_negative("gap", options.gap);
   given.flag("even", options.even);
@@ -82,7 +77,8 @@ ConvexCoverOptions convex_cover_options(const Given& given) {
   ConvexCoverOptions options;
   given.count("pieces", options.max_pieces, 1);
   given.count("vertices", options.max_vertices, 4);
-  take_bounds(given, options.bounds);
+  given.positive("max_distance", options.bounds.max_distance);
+  if (given.positive("max_void_percent", options.bounds.max_void_ratio)) options.bounds.max_void_ratio /= 100;
   given.choice("shape", piece_shape_names(), options.shape);
   given.flag("float32_coordinates", options.float32_coordinates);
   given.threads(options.threads);
@@ -93,7 +89,7 @@ template <class Given>
 SphereCoverOptions sphere_cover_options(const Given& given) {
   SphereCoverOptions options;
   given.count("count", options.max_balls, 1);
-  given.not_negative("max_distance", options.max_distance);
+  given.positive("max_distance", options.max_distance);
   given.flag("fill", options.fill);
   given.threads(options.threads);
   return options;
