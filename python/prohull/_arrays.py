@@ -33,12 +33,12 @@ def _numbers(name: str, values: ArrayLike) -> NDArray[Any]:
     return made
 
 
-def path(value: Any) -> Any:
+def path(value: Any) -> str:
     """The path of a file. No system has names with a zero byte."""
-    name = os.fspath(value)
-    if ("\0" if isinstance(name, str) else b"\0") in name:
+    name = os.fsdecode(value)
+    if "\0" in name:
         raise InputError(f"{name!r}: a zero byte is in this name, and so there is no such file")
-    return value
+    return name
 
 
 def face_counts(name: str, counts: Any) -> NDArray[Any]:
@@ -62,10 +62,15 @@ def one_of(name: str, value: Any, choices: Collection[Any]) -> None:
         raise InputError(f"{name}={value!r}: expected one of {', '.join(choices)}")
 
 
-def not_negative(name: str, value: Any) -> float:
-    """A finite number, at least 0."""
+def picture_size(width: Any, height: Any) -> tuple[int, int]:
+    """In pixels."""
+    return count("width", width, bits=31), count("height", height, bits=31)
+
+
+def not_negative(name: str, value: Any, most: float = sys.float_info.max) -> float:
+    """A number, at least 0; a finite one unless `most` is infinite."""
     is_number = isinstance(value, numbers.Real)
-    if not is_number or not 0 <= value <= sys.float_info.max:
+    if not is_number or not 0 <= value <= most:
         raise InputError(f"{name}={value!r}: expected a number, at least 0")
     return float(value)
 

@@ -58,7 +58,7 @@ class CoverShown(Proven, Shown):
 
         width, height: in pixels, each in [1, 16384].
         """
-        return self._view_parts()[0].picture(width, height)
+        return self._view_parts()[0].picture(*_arrays.picture_size(width, height))
 
     def _repr_png_(self) -> bytes:
         return self.picture()
@@ -139,7 +139,7 @@ class SphereCover(CoverShown):
 
         Raises InputError for another suffix, and if the file cannot be written.
         """
-        target = pathlib.Path(path)
+        target = pathlib.Path(_arrays.path(path))
         if target.suffix.lower() not in (".yaml", ".yml"):
             raise InputError(f"{os.fspath(path)}: spheres are written to files that end in .yaml or .yml")
         write_whole(target, _prohull.sphere_file(target.stem if link is None else link, self.balls))

@@ -127,9 +127,8 @@ def sample(name: str, faces: int) -> Mesh:
 
 def bytes_of(path: Path) -> bytes:
     """Of a whole file; errors are those of meshes that cannot be read."""
-    _arrays.path(path)
     try:
-        return pathlib.Path(path).read_bytes()
+        return pathlib.Path(_arrays.path(path)).read_bytes()
     except FileNotFoundError:
         raise _prohull.MissingFile(f"{os.fspath(path)}: cannot read: there is no such file; look at its name and its "
                                    "folder") from None

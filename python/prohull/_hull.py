@@ -142,7 +142,8 @@ class Hull(Mesh):
         Raises InputError for another suffix, for .phull if there are no levels, and if a certified hull that is rounded
         for STL or GLB is not certified, or not within its bounds, any more; the message says what to do.
         """
-        if os.fspath(_arrays.path(path)).lower().endswith(".phull"):
+        path = _arrays.path(path)
+        if path.lower().endswith(".phull"):
             self._with_levels().save(path)
         elif _prohull.stores_float32(path):
             self._rounded_for(path)._core.write(path)

@@ -161,7 +161,7 @@ class Mesh(Shown):
 
             pathlib.Path("hull.png").write_bytes(hull.picture())
         """
-        return self._picture(width, height)
+        return self._picture(*_arrays.picture_size(width, height))
 
     def _view_parts(self) -> "list[Part]":
         from . import _view
@@ -301,10 +301,12 @@ class Mesh(Shown):
         """Finds for each point the closest point of the mesh, and how far it is.
 
         points: (n, 3), or a single point, (3,), which is row 0 of the answer.
-        max_distance: points of which the mesh is not certainly within this distance get no answer; saves time.
+        max_distance: points of which the mesh is not certainly within this distance, at least 0, get no answer; saves
+            time.
         """
         threads = _arrays.count("threads", threads)
-        return ClosestPoints(*self._index(engine).closest(_arrays.points(points), max_distance, threads, progress))
+        most = _arrays.not_negative("max_distance", max_distance, math.inf)
+        return ClosestPoints(*self._index(engine).closest(_arrays.points(points), most, threads, progress))
 
     def signed_distance(self, points: ArrayLike, *, engine: Engine = "auto", threads: int = 0,
                         progress: Optional[Progress] = None) -> ClosestPoints:

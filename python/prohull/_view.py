@@ -111,7 +111,7 @@ def view(*shown: Viewable, original: Optional[MeshLike] = None, path: Optional[P
         None if compared is None else (_name_of(original), compared._core), bool(solid_only),
         unit or ("m" if is_robot else ""), _arrays.count("threads", threads), progress)
     if path is not None and page is not None:
-        write_whole(pathlib.Path(path), page)
+        write_whole(pathlib.Path(_arrays.path(path)), page)
     return View([part.name for part in parts], page, _picture(parts[0], side, compared))
 
 
@@ -137,7 +137,7 @@ def _in_notebook() -> bool:
 def _check_path(path: Optional[Path]) -> None:
     if path is None:
         return
-    if pathlib.Path(path).suffix.lower() not in (".html", ".htm"):
+    if pathlib.Path(_arrays.path(path)).suffix.lower() not in (".html", ".htm"):
         raise InputError(f"{os.fspath(path)}: pages are written to files that end in .html or .htm")
     if _prohull.no_page:
         raise InputError(_prohull.no_page)

@@ -270,7 +270,7 @@ class Hulls(Shown):
 
         Raises InputError if the folder is that of the robot itself, and for a name that ROS does not take.
         """
-        out = pathlib.Path(folder)
+        out = pathlib.Path(_arrays.path(folder))
         if out.resolve() == pathlib.Path(self.robot.path).resolve().parent:
             raise InputError(f"{out}: the robot itself is in this folder, and would be overwritten; choose another one")
         written = []
@@ -308,14 +308,14 @@ class Hulls(Shown):
         checks, allow = (None, 0.0) if check is None else (check._core, check.allow)
         page = self._core.report_html(checks, allow, None if motion is None else motion._core,
                                       _arrays.count("threads", threads), progress)
-        pathlib.Path(path).write_text(page, encoding="utf-8")
+        pathlib.Path(_arrays.path(path)).write_text(page, encoding="utf-8")
 
     def _view_parts(self) -> list[Part]:
         return [Part(self.robot.name, self._core.shown(), lambda *size: self.picture((), *size))]
 
     def picture(self, positions: Positions = (), width: int = 560, height: int = 420) -> bytes:
         """Draws the robot inside of its first hulls. Returns the content of a .png file."""
-        return self._core.picture(self.robot._positions(positions), width, height)
+        return self._core.picture(self.robot._positions(positions), *_arrays.picture_size(width, height))
 
     def _repr_png_(self) -> Optional[bytes]:
         return self.picture() or None
@@ -521,7 +521,7 @@ class Robot(Shown):
 
     def picture(self, positions: Positions = (), width: int = 560, height: int = 420) -> bytes:
         """Draws the visual geometry; meshes that are missing are left out. Returns the content of a .png file."""
-        return self._core.picture(self._positions(positions), width, height)
+        return self._core.picture(self._positions(positions), *_arrays.picture_size(width, height))
 
     def _repr_png_(self) -> Optional[bytes]:
         return self.picture() or None

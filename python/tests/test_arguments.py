@@ -134,8 +134,9 @@ def test_masked_numbers_are_refused(cube):
 
 
 def test_progress_is_called(pony):
-    with pytest.raises(TypeError, match="progress must be callable, or None; it is of type int"):
-        prohull.build(pony, 200, progress=3)
+    for call in (lambda: prohull.build(pony, 200, progress=3), lambda: pony.contains([0, 0, 0], progress=3)):
+        with pytest.raises(prohull.InputError, match="progress=3: expected a function of a stage and a fraction, or None"):
+            call()
 
 
 @pytest.mark.parametrize("dtype", [np.int64, np.uint64])
@@ -146,3 +147,17 @@ def test_rays_are_not_rounded(cube, dtype):
             mesh.first_hit(origins, [-1, 0, 0])
         with pytest.raises(prohull.InputError, match="directions: 9007199254740993 is no float64 number"):
             mesh.first_hit([5, 1, 1], origins)
+
+
+@pytest.mark.parametrize("far", ["1%", None, -1, np.nan])
+def test_a_search_ends_at_a_number(pony, far):
+    with pytest.raises(prohull.InputError, match=f"max_distance={far!r}: expected a number, at least 0"):
+        pony.closest([0, 0, 0], max_distance=far)
+
+
+@pytest.mark.parametrize("size", [{"width": 1.5}, {"width": 2**40}, {"height": "9"}, {"height": -1}])
+def test_pictures_have_sizes_in_pixels(cube, size):
+    [(name, value)] = size.items()
+    for drawn in (prohull.Mesh(*cube), prohull.convex_pieces(cube, 1)):
+        with pytest.raises(prohull.InputError, match=f"{name}={value!r}: expected a whole number, at least 0 and less than"):
+            drawn.picture(**size)

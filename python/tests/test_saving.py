@@ -15,6 +15,15 @@ def part(pony):
     return prohull.Mesh(pony.vertices / 3 + 0.1, pony.faces)
 
 
+def test_names_may_be_bytes(cube, tmp_path):
+    hull = prohull.build(prohull.Mesh(*cube), 12, levels=True)
+    for name in ("hull.ply", "hull.stl", "hull.phull"):
+        hull.save(bytes(tmp_path / name))
+        assert (tmp_path / name).exists()
+    prohull.spheres(hull, 2).save(bytes(tmp_path / "balls.yaml"))
+    assert (tmp_path / "balls.yaml").exists()
+
+
 @pytest.mark.parametrize("suffix", [".stl", ".GLB"])
 @pytest.mark.parametrize("options", [{}, {"tight": True}, {"side": "inner"}, {"max_distance": 0.5}])
 def test_a_hull_is_saved_certified(part, tmp_path, suffix, options):
