@@ -107,8 +107,8 @@ bool Candidates::has_few_faces(const Ranking& ranking) const {
 }
 
 // Where many parts overlap, the mesh's hull is several times larger than the others, if there is any. But it may be the
-// only one that keeps a bound, unless a component is a tangle: of a crumpled sphere with 160 pairs for each face, it took
-// minutes to find none. 200 tetrahedra with 107 have one.
+// only one that keeps a bound, unless a component is a tangle: of a crumpled sphere with 160 pairs for each face, it
+// took minutes to find none. 200 tetrahedra with 107 have one.
 bool Candidates::is_worth_the_mesh(const Solids& solids) const {
   constexpr std::size_t kMany = 120;
   constexpr std::size_t kTangle = 50;  // pairs for each face and component
