@@ -129,7 +129,6 @@ inline TriangleMesh together(TriangleMesh a, const TriangleMesh& b) {
   return a;
 }
 
-/// The same surface with three vertices of its own for every face.
 /// The walls of a cube of side 1, of six plates that cross each other, around a chamber.
 inline TriangleMesh walls(double thickness) {
   TriangleMesh all;
@@ -142,6 +141,7 @@ inline TriangleMesh walls(double thickness) {
   return all;
 }
 
+/// The same surface with three vertices of its own for every face.
 inline TriangleMesh soup(const TriangleMesh& mesh) {
   TriangleMesh result;
   for (const FaceId f : mesh.triangles.ids()) {

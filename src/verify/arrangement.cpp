@@ -139,6 +139,12 @@ struct KnownPoint {
   Windings left, right;
 };
 
+/// Along the piece at hand: where something happens, or a point on its line.
+struct Place {
+  const Event* event;
+  PointId point;  // if there is no event
+};
+
 /// A part of a piece between two events, or ends.
 struct Stretch {
   PieceId piece;
@@ -252,7 +258,7 @@ class Segments {
   }
 
   // By Green's theorem: seen from outside of t, parts are on the left of the edges of t, and on either side of
-  // segments.
+  // segments. Where segments lie on each other, the windings beside each of them are the same, and one of them counts.
   void visit_parts(const Arrangement::Value& value, const Arrangement::Visit& visit) {
     if (const int all = value(around_base()); tour_.empty()) {
       if (all != 0) visit(t_, all);
@@ -261,8 +267,8 @@ class Segments {
     const auto see = [&](const Stretch& s, int times) {
       if (times == 0) return;
       const ContactPiece& piece = pieces_[s.piece];
-      const auto end = [&](const Event* e, PointId p) { return e ? about(piece, *e) : about(p); };
-      visit({t_.a, in_t(end(s.from, piece.begin)), in_t(end(s.to, piece.end))}, times);
+      const auto end = [&](const Place& p) { return in_t(p.event ? about(piece, *p.event) : about(p.point)); };
+      for (const auto& [from, to] : first_on(s)) visit({t_.a, end(from), end(to)}, times);
     };
     visit_stretches(edges_, [&](const Stretch& s) {
       see(s, value(orientation_ > 0 ? s.left : s.right));
@@ -668,6 +674,36 @@ class Segments {
       from = &events_[k];
     }
     return visit(Stretch{i, from, nullptr, left, right});
+  }
+
+  /// Negative if p, on the line of a piece, comes before a place along it.
+  int order_beside(PieceId i, PointId p, const Place& place) {
+    if (!place.event) return order_along(i, p, place.point);
+    return -place.event->side_of_begin * side(pieces_[place.event->by].line, p);
+  }
+
+  /// The parts of a stretch of the piece at hand on which no piece before it lies.
+  std::vector<std::pair<Place, Place>> first_on(const Stretch& s) {
+    const PieceId i = s.piece;
+    std::vector<std::pair<PointId, PointId>> taken;
+    for (const PieceId j : collinear_) {
+      if (j >= i) continue;
+      const auto& [begin, end, line, jump] = pieces_[j];
+      taken.push_back(order_along(i, begin, end) < 0 ? std::pair{begin, end} : std::pair{end, begin});
+    }
+    std::ranges::sort(taken, [&](const auto& a, const auto& b) { return order_along(i, a.first, b.first) < 0; });
+    Place from{s.from, pieces_[i].begin};
+    const Place to{s.to, pieces_[i].end};
+    std::vector<std::pair<Place, Place>> parts;
+    for (const auto& [first, last] : taken) {
+      if (order_beside(i, last, from) <= 0) continue;
+      if (order_beside(i, first, to) >= 0) break;
+      if (order_beside(i, first, from) > 0) parts.push_back({from, {nullptr, first}});
+      from = {nullptr, last};
+      if (order_beside(i, last, to) >= 0) return parts;
+    }
+    parts.push_back({from, to});
+    return parts;
   }
 
   bool closure_holds(const Stretch& s, PointId p) {
