@@ -905,7 +905,7 @@ interrupted "Ctrl-C of a query" 0.5 $prohull query big.ply --random 100000 --eng
 interrupted "Ctrl-C of a picture" 0.5 $prohull render big.ply --size 4000x3000 --samples 256 -o interrupted.png
 interrupted "Ctrl-C of a tight hull" 0.5 $prohull build big.ply --faces 500 --tight -o interrupted.stl --report interrupted.json
 interrupted "Ctrl-C of many queries" 0.5 $prohull query big.ply --random 5e7 --mode all -o interrupted.npz
-interrupted "Ctrl-C of a verification" 0.5 $prohull verify big.ply big.ply --report interrupted.json
+interrupted "Ctrl-C of a verification" 0.5 $prohull verify rock.ply big.ply --report interrupted.json
 interrupted "Ctrl-C of a sample" 0.5 $prohull sample knot --faces 3e7 -o interrupted.stl
 interrupted "Ctrl-C of a wrap" 0.5 $prohull build big.ply --repair wrap --faces 5000 -o interrupted.stl
 mkfifo pipe
