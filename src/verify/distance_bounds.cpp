@@ -11,14 +11,18 @@
 namespace prohull {
 namespace {
 
-/// Whether every triangle of the part is one of the mesh, in the same order: a hull that is the mesh, or some of its
-/// components.
+bool have_same_corners(const Triangle& s, const Triangle& t) {
+  const std::array of_s{s.a, s.b, s.c}, of_t{t.a, t.b, t.c};
+  return std::is_permutation(of_s.begin(), of_s.end(), of_t.begin());
+}
+
+/// Whether every triangle of the part is one of the mesh, in the same order, in either orientation: a hull that is the
+/// mesh, or some of its components.
 bool is_part_of(const TriangleMesh& part, const TriangleMesh& mesh) {
   std::uint32_t found = 0;
   for (const FaceId f : mesh.triangles.ids()) {
     if (found == part.face_count()) break;
-    const Triangle s = mesh.triangle(f), t = part.triangle(FaceId{found});
-    found += s.a == t.a && s.b == t.b && s.c == t.c;
+    found += have_same_corners(mesh.triangle(f), part.triangle(FaceId{found}));
   }
   return found == part.face_count();
 }

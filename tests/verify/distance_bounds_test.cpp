@@ -70,6 +70,7 @@ TEST(DistanceBounds, OfAMeshFromItselfHaveNoFarthestPoint) {
   TriangleMesh more = box({2, 2, 2}, {3, 3, 3});
   append(more, mesh);
   EXPECT_EQ(distance_bounds(mesh, more).upper, 0) << "it is a component";
+  EXPECT_EQ(distance_bounds(inside_out(mesh), mesh).upper, 0) << "inside out";
 }
 
 TEST(DistanceBounds, HoldTheSampledDistanceOfHulls) {
