@@ -20,7 +20,8 @@ export interface Engine {
   inspect(mesh: MeshLike): prohull.Inspection;
   sample(name: string, faces?: number): Mesh;
   length(text: string, mesh: MeshLike): number;
-  certificate(...args: Parameters<typeof prohull.certificate>): Promise<Uint8Array>;
+  certificate(hull: MeshLike, original: ArrayBuffer | Uint8Array, name: string,
+    options?: Omit<NonNullable<Parameters<typeof prohull.certificate>[3]>, keyof Running>): Promise<Uint8Array>;
   scene(hull: Parameters<typeof prohull.scene>[0], original: Parameters<typeof prohull.scene>[1], options?: {side?: prohull.Side},
     progress?: Progress): {facts: string; blocks: Uint8Array};
   figure(name: string, args: unknown[]): any;

@@ -162,7 +162,7 @@ export function level(levels: Levels, faces: number, options?: Running & {float3
 export function verify(
   hull: MeshLike, original: MeshLike,
   options?: Running & {side?: Side; solidOnly?: boolean; gap?: number; finiteOnly?: boolean}): Promise<Verification>;
-/** Bounds of the greatest distance of a point of `from` from `to`. The upper one is proven. */
+/** Bounds of the greatest distance of a point of `from` from `to`. Both are proven. */
 export function distance(
   from: MeshLike, to: MeshLike,
   options?: Running & {relativeGap?: number}): Promise<{lower: number; upper: number; farthest: Float64Array}>;

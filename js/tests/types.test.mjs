@@ -27,6 +27,8 @@ if (new InputError('') instanceof Error && found > 0) engine.write(engine.level(
 await build(part, 500, {tigth: true});
 // @ts-expect-error: nor such a side
 await build(part, 500, {side: 'left'});
+// @ts-expect-error: what runs on this thread has no signal
+await engine.certificate(hull, new Uint8Array(84), 'part.stl', {signal: stop.signal});
 `;
 
 const project = join(scratch, 'types');
