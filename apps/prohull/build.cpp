@@ -266,9 +266,10 @@ void add_guards(CLI::App& command, BuildOptions& options) {
 
 void add_bounds(CLI::App& command, BuildOptions& options) {
   add_length(command, "--max-distance", options.max_distance,
-             "Largest allowed distance of any point of the hull from the mesh. What closes openings of the mesh counts "
-             "as mesh. The hull has the fewest faces, at least --faces, with which one was found that provably keeps "
-             "it; the exit code is 1 if none was found. With --tight, some ten hulls are built to find it.");
+             "Largest allowed distance of any point of the hull from the mesh, greater than 0. What closes openings of "
+             "the mesh counts as mesh. The hull has the fewest faces, at least --faces, with which one was found that "
+             "provably keeps it; the exit code is 1 if none was found. With --tight, some ten hulls are built to find "
+             "it.");
   add_optional_number(command, "--max-void", options.max_void_percent, kPositive,
                       "Largest allowed void, in per cent. The void is how much more volume the hull has than the mesh, "
                       "caps on its openings included (an inner hull: how much less).")
@@ -375,7 +376,8 @@ void add_build(CLI::App& app, Run& run) {
              "Number that varies the order of collapses a little, and so the hull; the first seed of --best-of.");
   add_threads_option(command, hull.threads, "The hull is the same for any number.");
   command.add_flag("--strict", options->strict,
-                   "Exit with code 1 if the number of faces is not reached; a bound that is missed always does so.");
+                   "Exit with code 1 if the number of faces is not reached and no bound asks for more; a bound that is "
+                   "missed always does so.");
   add_report_option(command, options->report);
   add_guards(command, *options);
   group_options(command);
