@@ -83,7 +83,7 @@ struct EnclosingHull {
   /// EnclosingOptions::levels kept them.
   std::optional<ProgressiveHull> levels;
   RefusalCounts refusals, blocked;               ///< as in HullResult
-  unsigned relaxed_guards = 0;                   ///< as in HullResult; 0 if the hull is a finer level
+  unsigned relaxed_guards = 0;                   ///< as in HullResult; 0 of a finer level, or where nothing collapsed
   std::size_t rounded_vertices = 0;              ///< how many vertices were moved to float32 coordinates
   std::size_t self_intersections = 0;            ///< pairs of faces of the hull that intersect
   double build_seconds = 0, verify_seconds = 0;  ///< with those of all that was tried for it

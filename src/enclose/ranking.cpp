@@ -185,6 +185,7 @@ EnclosingHull Ranking::winner() {
                            is_closed(request_.input.original) ? "" : "the mesh is not closed: ", solid.largest_door));
   if (solid.source == Source::Wrap && !request_.input.closed && volume() == 0 && !(hull.verdict.original_volume > 0))
     notes_.add("no space was found inside of the triangles: the hull is a sheet around them");
+  if (hull.mesh.face_count() == solid.mesh.face_count()) hull.relaxed_guards = 0;  // nothing collapsed
   hull.notes = notes_.all();
   return hull;
 }
