@@ -135,7 +135,7 @@ expect 0 "a mesh with a cavity" $prohull sweep hollow.off --move 0.1,0,0 -o holl
 says out "a mesh with a cavity" "from what the mesh passes with cavities filled"
 says hollow.json "a mesh with a cavity" '"fills_cavities": true'
 expect 0 "pieces of a mesh with a cavity" $prohull convex hollow.off -o hollow.obj
-says out "pieces of a mesh with a cavity" "of its diagonal) with cavities filled"
+says out "pieces of a mesh with a cavity" "of the diagonal) with cavities filled"
 
 # --- a hull whose parts overlap ---
 cat >crossed.urdf <<'URDF'
