@@ -233,12 +233,11 @@ class ExhaustiveBench {
     const std::size_t faces = is_kept(given) ? given.hull->mesh.face_count() : 0;
     table_.add({as_cell(name), number(percent, 2), faces > 0 ? fmt::to_string(faces) : "", number(given.seconds, 2),
                 least ? fmt::to_string(least->faces) : "", least ? as_cell(least->what) : "",
-                number(least ? least->seconds : kUnknown, 2),
                 number(least && faces > 0 ? double(faces) / double(least->faces) : kUnknown, 2)});
   }
 
   const AskedOptions& options_;
-  Table table_{{"mesh", "bound_percent", "faces", "seconds", "least_faces", "least", "least_seconds", "ratio"}};
+  Table table_{{"mesh", "bound_percent", "faces", "seconds", "least_faces", "least", "ratio"}};
 };
 
 /// Collision geometry is what others made of these meshes.

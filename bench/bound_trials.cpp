@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "enclose/candidate.h"
-#include "machine.h"
 #include "parallel/arena.h"
 #include "prohull/error.h"
 
@@ -20,59 +19,54 @@ class BoundTrials {
       : request_(mesh, faces, options), solids_(request_), faces_(faces), distance_(options.bounds.max_distance) {}
 
   void try_mesh() {
-    if (solids_.has_mesh()) try_solid(0, "mesh", 0);
+    if (solids_.has_mesh()) try_solid(0, "mesh");
   }
 
   void try_convex_hull() {
-    const double begin = processor_seconds();
-    if (const auto id = solids_.convex_hull({})) try_solid(*id, "convex hull", processor_seconds() - begin);
+    if (const auto id = solids_.convex_hull({})) try_solid(*id, "convex hull");
   }
 
   void try_wrap(double spacing, double flatness) {
-    const double begin = processor_seconds();
     std::string why_not;
     const WrapKind kind{.nodes_per_edge = 3.5, .offset = 0.3, .closing = 0, .flatness = flatness};
     const auto id = solids_.wrap(kind, spacing * distance_, faces_, why_not);
-    if (id)
-      try_solid(*id, fmt::format("wrap {:.2f}{}", spacing, flatness > 0 ? " flat" : ""), processor_seconds() - begin);
+    if (id) try_solid(*id, fmt::format("wrap {:.2f}{}", spacing, flatness > 0 ? " flat" : ""));
   }
 
   std::vector<BoundTrial> taken() && { return std::move(trials_); }
 
  private:
-  void try_solid(SolidId id, const std::string& what, double seconds) {
+  void try_solid(SolidId id, const std::string& what) {
     const bool is_mesh = solids_[id].source == Source::Mesh;
     const Approach approach = is_mesh ? Approach::Touching : Approach::Clear;
-    if (is_mesh) take(id, {Method::Levels}, 0, what + ", level", seconds);
-    take(id, {Method::Levels, true, approach}, 0, what + ", moved level", seconds);
+    if (is_mesh) take(id, {Method::Levels}, 0, what + ", level");
+    take(id, {Method::Levels, true, approach}, 0, what + ", moved level");
     for (const double part : {0.7, 0.85, 1.0, 1.35, 1.75}) {
       const std::string within = fmt::format("{}, within {:g}", what, part);
-      if (is_mesh) take(id, {Method::Within}, part, within, seconds);
-      take(id, {Method::Within, true, approach}, part, within + " moved", seconds);
+      if (is_mesh) take(id, {Method::Within}, part, within);
+      take(id, {Method::Within, true, approach}, part, within + " moved");
     }
   }
 
-  /// Also with further collapses, if it keeps the bound. Times include the `seconds` that the solid took.
-  void take(SolidId id, Recipe recipe, double part, const std::string& what, double seconds) {
+  /// Also with further collapses, if it keeps the bound.
+  void take(SolidId id, Recipe recipe, double part, const std::string& what) {
     Candidate candidate{.solid = id,
                         .target_faces = faces_,
                         .recipe = recipe,
                         .bounds = request_.options.bounds,
                         .within = part * distance_};
-    candidate.start = add(candidate, what, seconds);
+    candidate.start = add(candidate, what);
     if (!candidate.start) return;
     candidate.recipe = {Method::Further, true, recipe.approach};
-    add(candidate, what + ", further", trials_.back().seconds);
+    add(candidate, what + ", further");
   }
 
   /// Returns the hull if it keeps the bound.
-  std::optional<EnclosingHull> add(const Candidate& candidate, std::string what, double seconds_before) {
-    const double begin = processor_seconds();
+  std::optional<EnclosingHull> add(const Candidate& candidate, std::string what) {
     std::optional<Attempt> made = attempt(candidate, request_, solids_);
     if (!made) return std::nullopt;
-    const double seconds = seconds_before + processor_seconds() - begin;
     const bool is_kept = made->hull.certified && made->hull.within_bounds;
-    trials_.push_back({std::move(what), made->hull.mesh.face_count(), is_kept, seconds});
+    trials_.push_back({std::move(what), made->hull.mesh.face_count(), is_kept});
     return is_kept ? std::optional(std::move(made->hull)) : std::nullopt;
   }
 

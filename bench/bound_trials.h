@@ -13,7 +13,6 @@ struct BoundTrial {
   std::string what;  ///< "wrap 0.5 flat, within 0.85": lengths in largest distances
   std::size_t faces;
   bool is_kept;
-  double seconds;
 };
 
 /// An exhaustive search for the hull of fewest faces, at least `faces`, that keeps options.bounds.max_distance: levels
