@@ -38,6 +38,7 @@ struct HullBounds {
   double max_added_volume = std::numeric_limits<double>::infinity();  ///< of |volume(hull) - volume|; cubic units
 
   bool any() const { return *this != HullBounds{}; }
+  bool any_of_volume() const { return HullBounds{.max_distance = max_distance} != *this; }
   bool operator==(const HullBounds&) const = default;
 
   /// The greatest of the three quotients of what a hull of `hull_volume` has and its bound: at most 1 if it keeps all

@@ -81,8 +81,7 @@ bool may_keep_bounds(double spacing, const Ranking& ranking, double last) {
 void Candidates::plan_offset() {
   steps_.push_back([this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
     constexpr double kNear = 0.125;  // of the bound; the rest is for collapses
-    if (ranking.has_certified() && (ranking.best().hull.within_bounds || is_of_clean_mesh(ranking, solids)))
-      return std::nullopt;
+    if (ranking.keeps_bounds() || (ranking.has_certified() && is_of_clean_mesh(ranking, solids))) return std::nullopt;
     const bool is_sheet = !request_.input.closed;
     if (is_sheet && (request_.options.seal_holes > 0 || solids.volume(target_faces_) > 0)) return std::nullopt;
     const auto id = solids.offset(kNear * bounds_.max_distance);
@@ -119,8 +118,7 @@ void Candidates::plan_close_wraps() {
   const double finest = finest_close_spacing(request_);
   const auto plan = [this](double spacing, double distance) {
     steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
-      if (ranking.has_certified() && (ranking.best().hull.within_bounds || is_of_clean_mesh(ranking, solids)))
-        return std::nullopt;
+      if (ranking.keeps_bounds() || (ranking.has_certified() && is_of_clean_mesh(ranking, solids))) return std::nullopt;
       const std::span<const SolidId> made = solids.wraps(target_faces_);
       const bool is_made = !made.empty() && solids[made.back()].wrap_spacing == spacing;
       if (is_made && kNearer * ranking.best().hull.excess > 1) return std::nullopt;
@@ -140,7 +138,7 @@ void Candidates::plan_close_wraps() {
 /// The last step: it has no candidate.
 void Candidates::plan_why_not_closer(double finest, double wanted) {
   steps_.push_back([=, this](const Ranking& ranking, Solids&) -> std::optional<Candidate> {
-    if (!ranking.has_certified() || !ranking.best().hull.within_bounds)
+    if (!ranking.keeps_bounds())
       notes_.add(
           fmt::format("a wrap that keeps the largest distance needs a spacing of about {:.4g}, and so more memory "
                       "and time than a single hull may take: the finest one that is tried has a spacing of {:.4g}",
@@ -191,7 +189,7 @@ bool Candidates::may_be_better(const LooseWrap& next, const Ranking& ranking, co
 // keeps them with fewer still, the wrap is left out.
 std::optional<Candidate> Candidates::loose_wrap(const LooseWrap& next, const Ranking& ranking, Solids& solids) const {
   constexpr std::size_t kMostReduced = 400;
-  const bool is_within = ranking.has_certified() && ranking.best().hull.within_bounds;
+  const bool is_within = ranking.keeps_bounds();
   if (is_within && !may_be_better(next, ranking, solids)) return std::nullopt;
   const auto id = wrap(kBoundedWrap, next.spacing, solids);
   if (!request_.input.closed) require_volume(solids.volume(target_faces_), bounds_);

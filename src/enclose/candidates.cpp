@@ -130,8 +130,7 @@ void Candidates::plan_finer_levels() {
   constexpr std::size_t kMostFaces = 16'000;  // to move away takes most of the time
   for (const std::size_t part : {4, 2, 1})
     steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
-      const bool is_within = ranking.has_certified() && ranking.best().hull.within_bounds;
-      if (ranking.is_empty() || is_within || !is_worth_the_mesh(solids)) return std::nullopt;
+      if (ranking.is_empty() || ranking.keeps_bounds() || !is_worth_the_mesh(solids)) return std::nullopt;
       Candidate candidate = of(0, solids);
       candidate.least_faces = solids[0].mesh.face_count() / part;
       const bool is_finer = candidate.least_faces > ranking.best().hull.mesh.face_count();
@@ -176,8 +175,7 @@ void Candidates::plan_within_of_mesh() {
 // Within bounds of the void, a wheel has 248 faces for 316, and a screwdriver 118 for 192.
 void Candidates::plan_further() {
   steps_.push_back([this](const Ranking& ranking, Solids&) -> std::optional<Candidate> {
-    if (!ranking.has_certified() || !ranking.best().hull.within_bounds || has_few_faces(ranking) ||
-        ranking.best().candidate.recipe.method == Method::Further)
+    if (!ranking.keeps_bounds() || has_few_faces(ranking) || ranking.best().candidate.recipe.method == Method::Further)
       return std::nullopt;
     return further(ranking.best().hull);
   });

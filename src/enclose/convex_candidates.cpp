@@ -28,8 +28,7 @@ void Candidates::plan_convex_hull() {
 // than the level of 90.
 void Candidates::plan_convex_hull_in_steps() {
   steps_.push_back([this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
-    if (has_few_faces(ranking) || !ranking.has_certified() || !ranking.best().hull.within_bounds ||
-        ranking.best().hull.source != Source::ConvexHull)
+    if (has_few_faces(ranking) || !ranking.keeps_bounds() || ranking.best().hull.source != Source::ConvexHull)
       return std::nullopt;
     Candidate candidate = of(ranking.best().hull.solid, solids);
     candidate.recipe.method = Method::InSteps;

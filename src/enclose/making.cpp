@@ -20,10 +20,9 @@ double original_volume(const Making& making) { return making.solids.verified_vol
 /// Of one that is built from a mesh that intersects itself, overlaps are looked at where they may decide.
 double enclosed_volume(const TriangleMesh& hull, const HullBounds& bounds, double volume, const Making& making) {
   const double with_overlaps = signed_volume(hull);
-  const bool is_asked = std::isfinite(bounds.max_void_ratio) || std::isfinite(bounds.max_added_volume);
   const bool is_enough = making.request.is_outer() && with_overlaps <= (1 + bounds.max_void_ratio) * volume &&
                          with_overlaps <= volume + bounds.max_added_volume;
-  if (making.solid().self_intersections == 0 || !is_asked || is_enough) return with_overlaps;
+  if (making.solid().self_intersections == 0 || !bounds.any_of_volume() || is_enough) return with_overlaps;
   return solid_volume(hull, making.options().progress).value_or(with_overlaps);
 }
 

@@ -32,6 +32,7 @@ class Ranking {
   bool is_empty() const { return !best_.has_value(); }
   const Attempt& best() const { return *best_; }
   bool has_certified() const { return best_ && best_->hull.certified; }
+  bool keeps_bounds() const { return has_certified() && best_->hull.within_bounds; }  ///< the best does
   bool last_failed() const { return last_failed_; }  ///< the last attempt is not certified, or could not be made
   /// The last attempt, if it is certified, keeps the bounds, and is not the best.
   const std::optional<EnclosingHull>& second() const { return second_; }

@@ -139,7 +139,7 @@ struct KnownPoint {
   Windings left, right;
 };
 
-/// Along the piece at hand: where something happens, or a point on its line.
+/// Along a piece: where something happens, or a point on its line.
 struct Place {
   const Event* event;
   PointId point;  // if there is no event
@@ -148,7 +148,7 @@ struct Place {
 /// A part of a piece between two events, or ends.
 struct Stretch {
   PieceId piece;
-  const Event *from, *to;  // none at the ends of the piece
+  Place from, to;
   const Windings &left, &right;
 };
 
@@ -236,8 +236,8 @@ class Segments {
     std::vector<Vec3> points;
     std::optional<Vec3> inner;
     const auto add_ends = [&](const Stretch& s) {
-      points.push_back(s.from ? place_of(s.piece, *s.from) : in_space(pieces_[s.piece].begin));
-      points.push_back(s.to ? place_of(s.piece, *s.to) : in_space(pieces_[s.piece].end));
+      for (const Place& end : {s.from, s.to})
+        points.push_back(end.event ? place_of(s.piece, *end.event) : in_space(end.point));
     };
     if (sought(around_base())) inner = base_->rounded();
     if (tour_.empty()) return inner ? std::vector{*inner, t_.a, t_.b, t_.c} : points;
@@ -666,14 +666,14 @@ class Segments {
       add_jumps(right, pieces_[e.by].jump, direction * e.right);
     };
     for (std::size_t k = 0; k < before; ++k) pass(events_[k], -1);
-    const Event* from = nullptr;
+    Place from{nullptr, pieces_[i].begin};
     for (std::size_t k = 0; k < events_.size(); ++k) {
       const bool is_same_place = k > 0 && order(pieces_[i], events_[k - 1], events_[k]) == 0;
-      if (!is_same_place && visit(Stretch{i, from, &events_[k], left, right})) return true;
+      if (!is_same_place && visit(Stretch{i, from, {&events_[k], 0}, left, right})) return true;
       pass(events_[k], 1);
-      from = &events_[k];
+      from = {&events_[k], 0};
     }
-    return visit(Stretch{i, from, nullptr, left, right});
+    return visit(Stretch{i, from, {nullptr, pieces_[i].end}, left, right});
   }
 
   /// Negative if p, on the line of a piece, comes before a place along it.
@@ -692,25 +692,22 @@ class Segments {
       taken.push_back(order_along(i, begin, end) < 0 ? std::pair{begin, end} : std::pair{end, begin});
     }
     std::ranges::sort(taken, [&](const auto& a, const auto& b) { return order_along(i, a.first, b.first) < 0; });
-    Place from{s.from, pieces_[i].begin};
-    const Place to{s.to, pieces_[i].end};
+    Place from = s.from;
     std::vector<std::pair<Place, Place>> parts;
     for (const auto& [first, last] : taken) {
       if (order_beside(i, last, from) <= 0) continue;
-      if (order_beside(i, first, to) >= 0) break;
+      if (order_beside(i, first, s.to) >= 0) break;
       if (order_beside(i, first, from) > 0) parts.push_back({from, {nullptr, first}});
       from = {nullptr, last};
-      if (order_beside(i, last, to) >= 0) return parts;
+      if (order_beside(i, last, s.to) >= 0) return parts;
     }
-    parts.push_back({from, to});
+    parts.push_back({from, s.to});
     return parts;
   }
 
+  /// Of a point on the line of the piece.
   bool closure_holds(const Stretch& s, PointId p) {
-    const auto is_before = [&](const Event* e, int direction) {
-      return e != nullptr && side(pieces_[e->by].line, p) == direction * e->side_of_begin;
-    };
-    return !is_before(s.from, 1) && !is_before(s.to, -1);
+    return order_beside(s.piece, p, s.from) >= 0 && order_beside(s.piece, p, s.to) <= 0;
   }
 
   // Rounded points of t.
@@ -767,8 +764,8 @@ class Segments {
   /// Halfway from the middle of a stretch to what bounds the part on that side.
   Vec3 point_beside(const Stretch& s, bool left) {
     const ContactPiece piece = pieces_[s.piece];
-    const double from = s.from ? exact_place(piece, *s.from).rounded() : 0;
-    const double to = s.to ? exact_place(piece, *s.to).rounded() : 1;
+    const double from = s.from.event ? exact_place(piece, *s.from.event).rounded() : 0;
+    const double to = s.to.event ? exact_place(piece, *s.to.event).rounded() : 1;
     const Planar<double> begin = rounded_point(piece.begin), end = rounded_point(piece.end);
     const Planar<double> p = way_point<double>(begin, end, (from + to) / 2);
     const double u = end.u - begin.u, v = end.v - begin.v;

@@ -15,10 +15,11 @@ class DiskStars {
   /// Of vertices by their numbers: equal positions count as different ones.
   explicit DiskStars(const TriangleMesh& mesh);
 
-  bool have_both(FaceId f, FaceId g) const {
-    return std::ranges::any_of(mesh_.triangles[f], [&](VertexId v) {
-      return is_disk_[v] && std::ranges::find(mesh_.triangles[g], v) != mesh_.triangles[g].end();
-    });
+  /// Whether such a star has both faces.
+  bool operator()(std::uint32_t f, std::uint32_t g) const {
+    const auto& others = mesh_.triangles[FaceId{g}];
+    return std::ranges::any_of(mesh_.triangles[FaceId{f}],
+                               [&](VertexId v) { return is_disk_[v] && std::ranges::find(others, v) != others.end(); });
   }
 
  private:

@@ -74,8 +74,7 @@ double HullBounds::excess(const TriangleMesh& hull, double hull_volume, const Tr
 
 bool HullBounds::hold(const TriangleMesh& hull, const TriangleMesh& original, double volume,
                       const Progress& progress) const {
-  const bool asks_volume = std::isfinite(max_void_ratio) || std::isfinite(max_added_volume);
-  const double hull_volume = asks_volume ? solid_volume(hull, progress).value_or(signed_volume(hull)) : volume;
+  const double hull_volume = any_of_volume() ? solid_volume(hull, progress).value_or(signed_volume(hull)) : volume;
   return excess(hull, hull_volume, original, volume, progress) <= 1;
 }
 

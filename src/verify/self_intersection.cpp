@@ -159,16 +159,14 @@ FacePairs self_intersections(const TriangleMesh& mesh, ProgressMeter& meter) {
   require_usable(mesh, "given");
   const DiskStars stars(mesh);
   const auto triangle_of = [&](FaceIndex f) { return mesh.triangle(FaceId{f}); };
-  const auto are_apart = [&](FaceIndex f, FaceIndex g) { return stars.have_both(FaceId{f}, FaceId{g}); };
-  return all_pairs(mesh.face_count(), triangle_of, are_apart, meter);
+  return all_pairs(mesh.face_count(), triangle_of, stars, meter);
 }
 
 std::size_t count_self_intersections(const TriangleMesh& mesh, ProgressMeter& meter) {
   require_usable(mesh, "given");
   const DiskStars stars(mesh);
   const auto triangle_of = [&](FaceIndex f) { return mesh.triangle(FaceId{f}); };
-  const auto are_apart = [&](FaceIndex f, FaceIndex g) { return stars.have_both(FaceId{f}, FaceId{g}); };
-  return PairSearch(static_cast<FaceIndex>(mesh.face_count()), triangle_of, are_apart)
+  return PairSearch(static_cast<FaceIndex>(mesh.face_count()), triangle_of, stars)
       .template meeting<std::size_t>(
           meter, [](std::size_t& found, FaceIndex, FaceIndex) { ++found; },
           [](std::size_t& found, std::size_t other) { found += other; });
