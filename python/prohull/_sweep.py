@@ -54,7 +54,7 @@ class Sweep(CoverShown):
         return [pieces_part([piece._core for piece in self.pieces])]
 
     def __repr__(self) -> str:
-        return f"<prohull.Sweep: {_arrays.counted(len(self.pieces), 'convex piece')}, at most {self.verdict.distance_bound:.3g} from what is passed>"
+        return f"<prohull.Sweep: {_arrays.counted(len(self.pieces), 'convex piece')}, about {self.verdict.distance_bound:.3g} from what is passed>"
 
 
 def sweep(mesh: MeshLike, *, axis: Union[Axis, Sequence[float]] = "z", through: Sequence[float] = (0, 0, 0),
