@@ -107,11 +107,11 @@ DistanceBounds distance_of_region(const TriangleMesh& faces, const TriangleMesh&
   return bounds;
 }
 
-void measure(BuildOutcome& outcome) {
+void measure(BuildOutcome& outcome, const HullBounds& bounds) {
   outcome.input_self_intersections = self_intersections_of_input(outcome.made);
   ProgressLine line;
   for (Written& written : outcome.written) {
-    written.measures = measures_of(outcome.made, written.hull, std::ref(line));
+    written.measures = measures_of(outcome.made, written.hull, bounds, std::ref(line));
     written.measures.verdict = as_written(std::move(written.measures.verdict), written.holds_bits);
     for (std::size_t i = 0; i < outcome.regions.all.size(); ++i)
       written.regions.push_back(distance_of_region(outcome.regions.faces[i], written.hull.mesh,
@@ -180,7 +180,7 @@ BuildOutcome build_and_write(BuildOptions options) {
     const FinestLevel finest = finest_level(outcome.made, made);
     outcome.written.push_back(write_certified(std::move(made), finest, options, suffix, outputs));
   }
-  measure(outcome);
+  measure(outcome, options.enclosing.bounds);
   if (!options.certificate.empty())
     for (Written& written : outcome.written)
       if (written.certified()) write_certificate(written, original, options, outputs);

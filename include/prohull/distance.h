@@ -19,7 +19,10 @@ struct DistanceBounds {
 struct DistanceOptions {
   double relative_gap = 0.01;         ///< the search ends when upper <= (1 + relative_gap) lower; at least 0
   std::size_t max_cells = 1'000'000;  ///< the search also ends after this many parts of faces; `upper` still holds then
-  Progress progress = {};             ///< stage "measure"
+  /// The search goes on until it is known whether `upper` is at most this, if it can be; below, `upper` may then be
+  /// farther off.
+  double decides = 0;
+  Progress progress = {};  ///< stage "measure"
 };
 
 /// Bounds how far the surface of `from` reaches from the surface of `to`. All points of the faces count, not only the

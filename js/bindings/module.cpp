@@ -44,7 +44,7 @@ val object_of(const EnclosingHull& hull, const EnclosingHulls& made) {
 /// The lines that `prohull build` prints of a hull, written to a file of that name.
 void add_summary(val& object, const std::string& file, const EnclosingHull& hull, const EnclosingHulls& made,
                  const EnclosingOptions& options) {
-  const HullMeasures measures = measures_of(made, hull, options.progress);
+  const HullMeasures measures = measures_of(made, hull, options.bounds, options.progress);
   const ToldHull told{made, hull, options, measures, self_intersections_of_input(made)};
   std::vector<std::string> lines = lines_of_repairs(made);
   lines.insert(lines.end(), hull.notes.begin(), hull.notes.end());

@@ -39,7 +39,7 @@ struct Candidate {
   HullBounds bounds = {};  ///< that the hull is built to keep
   std::uint64_t seed = 0;
   std::size_t least_faces = 0;  ///< Method::Levels: of the level
-  double within = 0;            ///< Method::Within: the distance that collapses keep
+  double within = 0;  ///< Method::Within: the distance that collapses keep; Further: those of `start` kept; 0 if none
   std::size_t most_faces = std::numeric_limits<std::size_t>::max();  ///< with more, it is not better than another hull
   std::optional<EnclosingHull> start = {};  ///< Method::Searched and Further: what they begin with
 };

@@ -70,10 +70,11 @@ class Candidates {
   Candidate of_convex(SolidId id, const Ranking& ranking, const Solids& solids) const;
   Candidate moved(SolidId id) const;
   Candidate within(SolidId id, double max_distance, const Solids& solids) const;
-  Candidate further(const EnclosingHull& hull) const;
+  Candidate further(const EnclosingHull& hull, double within) const;
   bool may_stay_within() const;
   bool may_go_further() const;
-  bool may_overtake(const Ranking& ranking) const;
+  bool is_worth_further(const Ranking& ranking) const;
+  bool has_passed_coarser_levels(const Ranking& ranking) const;
 
   const Request& request_;
   const std::size_t target_faces_;

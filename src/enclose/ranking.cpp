@@ -50,6 +50,7 @@ void Notes::add(std::string text) {
 
 void Ranking::take(std::optional<Attempt> attempt) {
   last_failed_ = !attempt || !attempt->hull.certified;
+  is_last_best_ = false;
   second_.reset();
   if (!attempt) return;
   const EnclosingHull& hull = attempt->hull;
@@ -62,9 +63,10 @@ void Ranking::take(std::optional<Attempt> attempt) {
   else if (!is_as_asked(hull) && request_.is_free() && !is_in_spite_of_bounds(*attempt) &&
            (hull.certified || !other_way(attempt->candidate.recipe, request_)))
     note_why_not(hull);
+  const bool is_kept = hull.certified && hull.within_bounds;
   if (!best_ || is_better(hull, best_->hull))
-    best_ = std::move(attempt);
-  else if (hull.certified && hull.within_bounds)
+    best_ = std::move(attempt), is_last_best_ = is_kept;
+  else if (is_kept)
     second_ = std::move(attempt->hull);
 }
 

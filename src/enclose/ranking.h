@@ -34,8 +34,8 @@ class Ranking {
   bool has_certified() const { return best_ && best_->hull.certified; }
   bool keeps_bounds() const { return has_certified() && best_->hull.within_bounds; }  ///< the best does
   bool last_failed() const { return last_failed_; }  ///< the last attempt is not certified, or could not be made
-  /// The last attempt, if it is certified, keeps the bounds, and is not the best.
-  const std::optional<EnclosingHull>& second() const { return second_; }
+  /// The last attempt, if it is certified and keeps the bounds; else null.
+  const EnclosingHull* last_kept() const { return is_last_best_ ? &best_->hull : second_ ? &*second_ : nullptr; }
 
   bool is_as_asked() const { return best_ && is_as_asked(best_->hull); }
   bool is_clean() const { return is_clean(best_->hull); }
@@ -77,7 +77,8 @@ class Ranking {
   double void_before_padding_ = 0;  ///< of the last hull of the mesh
   double build_seconds_ = 0, verify_seconds_ = 0;
   bool last_failed_ = false;
-  std::optional<EnclosingHull> second_;
+  bool is_last_best_ = false;            ///< and keeps the bounds
+  std::optional<EnclosingHull> second_;  ///< the last attempt, if it keeps the bounds, and is not the best
   std::size_t fewest_of_wraps_ = std::numeric_limits<std::size_t>::max();
 };
 

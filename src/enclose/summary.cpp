@@ -171,9 +171,10 @@ std::string source_of(const Solid& solid) {
   }
 }
 
-HullMeasures measures_of(const EnclosingHulls& made, const EnclosingHull& hull, const Progress& progress) {
+HullMeasures measures_of(const EnclosingHulls& made, const EnclosingHull& hull, const HullBounds& bounds,
+                         const Progress& progress) {
   HullMeasures found;
-  const DistanceOptions how{.progress = progress};
+  const DistanceOptions how{.decides = bounds.max_distance, .progress = progress};
   found.has_openings = made.input.caps.face_count() > 0 || made.solids[hull.solid].doors.face_count() > 0;
   found.verdict = hull.verdict;
   found.verdict.certified = hull.certified;

@@ -34,12 +34,19 @@ DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to,
   verify::require_distances(to);
   if (is_part_of(from, to)) return {};
   const double largest = std::max(verify::largest_coordinate(from), verify::largest_coordinate(to));
-  if (const double unit = verify::usable_unit(largest); unit != 1)
-    return verify::unscaled(distance_bounds(verify::scaled(from, unit), verify::scaled(to, unit), options), unit);
+  if (const double unit = verify::usable_unit(largest); unit != 1) {
+    DistanceOptions how = options;
+    how.decides *= unit;
+    return verify::unscaled(distance_bounds(verify::scaled(from, unit), verify::scaled(to, unit), how), unit);
+  }
 
   const verify::NearestFace faces(to);
   const verify::FarFromFaces rule(faces);
-  verify::FarFromFaces::Search search(rule, {.relative_gap = options.relative_gap, .max_parts = options.max_cells});
+  const double rounding = verify::rounding_of_distances(largest);
+  verify::FarFromFaces::Search search(rule, {.relative_gap = options.relative_gap,
+                                             .max_parts = options.max_cells,
+                                             .decides = std::isfinite(options.decides) ? options.decides - rounding : 0,
+                                             .patience = options.max_cells / 8});
   ProgressCounter counter(options.progress, "measure", options.max_cells + from.face_count());
   PerVertex<verify::NearestFace::Found> nearest(from.vertex_count(), verify::NearestFace::kNone);
   std::uint32_t guess = 0;  // near the vertex before
@@ -55,7 +62,7 @@ DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to,
     const auto& [a, b, c] = corners;
     rule.add(from.triangle(f), {nearest[a], nearest[b], nearest[c]}, search);
   }
-  return verify::proven(search.run([&] { counter.next(); }), faces, verify::rounding_of_distances(largest));
+  return verify::proven(search.run([&] { counter.next(); }), faces, rounding);
 }
 
 double HullBounds::excess(const TriangleMesh& hull, double hull_volume, const TriangleMesh& original, double volume,
@@ -68,7 +75,9 @@ double HullBounds::excess(const TriangleMesh& hull, double hull_volume, const Tr
   double most = quotient(added, max_added_volume);
   if (std::isfinite(max_void_ratio)) most = std::max(most, quotient(added, max_void_ratio * volume));
   if (std::isfinite(max_distance))
-    most = std::max(most, quotient(distance_bounds(hull, original, {.progress = progress}).upper, max_distance));
+    most = std::max(
+        most,
+        quotient(distance_bounds(hull, original, {.decides = max_distance, .progress = progress}).upper, max_distance));
   return most;
 }
 

@@ -24,6 +24,9 @@ inline int longest_side(const std::array<Vec3, 3>& corners) {
 struct SearchLimits {
   double relative_gap = 0, absolute_gap = 0;  ///< between the bounds
   std::size_t max_parts = 0;
+  double decides =
+      0;  ///< the search goes on until it is known on which side of this the greatest distance is, if it can
+  std::size_t patience = 0;  ///< once so many parts were seen, nothing is improved that is below `decides`
 };
 
 /// Bounds the greatest distance of points: the part whose bound is greatest is cut, again and again. The rule says what
@@ -53,7 +56,9 @@ class GreatestDistance {
   }
   double lower() const { return bounds_.lower; }
   bool is_enough(double upper) const {
-    return upper <= (1 + limits_.relative_gap) * bounds_.lower + limits_.absolute_gap;
+    if (upper <= limits_.decides && seen_ > limits_.patience) return true;
+    const bool is_known = bounds_.lower > limits_.decides || upper <= limits_.decides;
+    return is_known && upper <= (1 + limits_.relative_gap) * bounds_.lower + limits_.absolute_gap;
   }
 
   /// No point of the part that counts is farther away than `upper`.

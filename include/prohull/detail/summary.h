@@ -49,7 +49,8 @@ struct HullMeasures {
   MeshQuality quality = {};
 };
 
-HullMeasures measures_of(const EnclosingHulls& made, const EnclosingHull& hull, const Progress& progress = {});
+HullMeasures measures_of(const EnclosingHulls& made, const EnclosingHull& hull, const HullBounds& bounds,
+                         const Progress& progress = {});
 
 /// Pairs of faces of the repaired mesh, or of the input where that could not be repaired.
 std::size_t self_intersections_of_input(const EnclosingHulls& made);
