@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "enclose/estimated_volume.h"
 #include "enclose/folds.h"
-#include "enclose/known_void.h"
 #include "geometry/float32.h"
 #include "prohull/detail/finite.h"
 #include "prohull/detail/float32_hull.h"
@@ -77,13 +77,9 @@ ClosedSolid closed_solid(TriangleMesh triangles, const ClosedSolidOptions& optio
   return solid;
 }
 
-double estimated_volume(const TriangleMesh& closed, const Progress& progress) {
-  return inside_volume(closed, {.spacing = bounding_box(closed).diagonal() / kPerDiagonal, .progress = progress});
-}
-
 InsideVolume volume_inside(const TriangleMesh& closed, const Progress& progress) {
   if (const auto volume = solid_volume(closed, progress)) return {*volume, false};
-  return {estimated_volume(closed, progress), true};
+  return {estimated_volume(closed), true};
 }
 
 InsideVolume volume_inside(const RepairedMesh& repaired, const Progress& progress) {

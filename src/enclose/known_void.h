@@ -10,7 +10,4 @@ double known_void(const EnclosingHulls& made, const EnclosingHull& hull);
 /// Throws InputError if `bounds` limit the void, as a share of nothing.
 void require_volume(double volume, const HullBounds& bounds);
 
-/// Where solid_volume takes too long: by a wrap of 1/100 of the diagonal.
-double estimated_volume(const TriangleMesh& closed, const Progress& progress);
-
 }  // namespace prohull

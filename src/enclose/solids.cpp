@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "enclose/estimated_volume.h"
 #include "enclose/folds.h"
-#include "enclose/known_void.h"
 #include "enclose/offset_surface.h"
 #include "geometry/float32.h"
 #include "prohull/detail/progress_meter.h"
@@ -68,7 +68,7 @@ double Solids::volume_without_overlaps() {
   ProgressMeter meter(request_.options.progress, "repair");
   const double exact = has_triangles_of(mesh, original_.solid().mesh()) ? original_.solid().volume(meter)
                                                                         : verify::solid_volume(mesh, meter);
-  return std::isnan(exact) ? estimated_volume(mesh, request_.options.progress) : exact;
+  return std::isnan(exact) ? estimated_volume(mesh) : exact;
 }
 
 SolidId Solids::add(Solid solid) {
