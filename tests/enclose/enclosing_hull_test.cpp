@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "effort.h"
+#include "enclose/estimated_volume.h"
 #include "few_trials.h"
 #include "geometry/float32.h"
 #include "meshes.h"
@@ -515,6 +516,31 @@ TEST(EnclosingHull, AtADistanceOfZeroIsTheMeshItself) {
 TEST(EnclosingHull, AtADistanceWhoseSquareIsZeroIsTheMeshItself) {
   const TriangleMesh box = make_sample("box", 60);
   EXPECT_TRUE(has_triangles_of(enclosing_hull(box, 8, {.bounds = {.max_distance = 1e-160}}).mesh, box));
+}
+
+TEST(EnclosingHull, VolumesAreEstimatedByWhatAMeshWindsAround) {
+  const TriangleMesh beam = box({0, 0, 0}, {4, 1, 1}), other = box({-1, 0.5, -1}, {2, 1.5, 3}),
+                     sphere = meshes::sphere(4);
+  EXPECT_NEAR(estimated_volume(together(beam, other)), 4 + 12 - 1, 0.1);
+  EXPECT_NEAR(estimated_volume(together(box({-2, -2, -2}, {2, 2, 2}), inside_out(sphere))), 64 - signed_volume(sphere),
+              0.1);
+  EXPECT_EQ(estimated_volume(together(beam, inside_out(beam))), 0);
+}
+
+// A ring of boxes, each of which crosses many others: more than can be counted exactly. Its convex hull has twice the
+// volume.
+TEST(EnclosingHull, OfManyPartsThatOverlapInARingKeepsTheHole) {
+  TriangleMesh ring;
+  constexpr int kParts = 92;
+  for (int i = 0; i < kParts; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kParts;
+    TriangleMesh part = box({0.6, -0.1, 0.4}, {0.8, 0.1, 0.6});
+    for (Vec3& p : part.positions)
+      p = {p.x * std::cos(angle) - p.y * std::sin(angle), p.x * std::sin(angle) + p.y * std::cos(angle), p.z};
+    append(ring, part);
+  }
+  const EnclosingHull hull = only(hull_of(ring, 600));
+  EXPECT_LT(signed_volume(hull.mesh), 1.3 * estimated_volume(ring));
 }
 
 TEST(EnclosingHull, OfABoundThatNoHullKeepsIsNear) {

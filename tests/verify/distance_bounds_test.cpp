@@ -88,6 +88,16 @@ TEST(DistanceBounds, HoldTheSampledDistanceOfHulls) {
   }
 }
 
+// Bounds that are 1 % apart leave it open.
+TEST(DistanceBounds, DecideWhatTheyAreAskedFor) {
+  const TriangleMesh mesh = make_sample("knot", 1000), hull = build_hull(mesh, {.target_faces = 100}).hull.base();
+  const double least = distance_bounds(hull, mesh, {.relative_gap = 1e-6}).lower;
+  for (const double factor : {1.00001, 1.001, 1.005})
+    EXPECT_LE(distance_bounds(hull, mesh, {.relative_gap = 0.1, .decides = factor * least}).upper, factor * least);
+  for (const double factor : {0.5, 0.995, 0.99999})
+    EXPECT_GT(distance_bounds(hull, mesh, {.relative_gap = 0.1, .decides = factor * least}).lower, factor * least);
+}
+
 TEST(DistanceBounds, OfAMeshFromItselfIsNextToNothing) {
   const TriangleMesh mesh = octahedron();
   EXPECT_LT(distance_bounds(mesh, mesh).upper, 1e-12);
