@@ -21,8 +21,11 @@ bool ToleranceGuard::would_exceed(const HalfEdgeMesh& mesh, const Star& star, co
   set_old_faces(mesh, star);
   new_tolerances_.clear();
   apex_.deviation = 0;
-  if (std::ranges::all_of(old_faces_, [](const OldFace& face) { return face.tolerance == Tolerances::kAny; }))
-    return false;
+  const auto [least, greatest] =
+      std::minmax_element(old_faces_.begin(), old_faces_.end(),
+                          [](const OldFace& a, const OldFace& b) { return a.tolerance < b.tolerance; });
+  if (least->tolerance == Tolerances::kAny) return false;
+  least_tolerance_ = least->tolerance, greatest_tolerance_ = greatest->tolerance;
   set_points(star, apex);
   return std::ranges::none_of(directions(star, apex), [&](const Vec3& direction) { return holds_along(direction); });
 }
@@ -41,9 +44,13 @@ std::array<Vec3, 3> ToleranceGuard::directions(const Star& star, const Vec3& ape
 bool ToleranceGuard::holds_along(const Vec3& direction) {
   if (!project_without_folds(direction)) return false;
   bound_apex();
+  if (is_beyond_all()) return false;
   set_new_tolerances();
   return is_within_tolerances();
 }
+
+// Each new face has it at a corner, and lies over old ones.
+bool ToleranceGuard::is_beyond_all() const { return apex_.deviation * scale_ > kUsedPart * greatest_tolerance_; }
 
 void ToleranceGuard::collapsed() {
   tolerances_.deviations.push_back(apex_.deviation * scale_);
@@ -122,7 +129,7 @@ void ToleranceGuard::bound_apex() {
   for (const Point* const end : {&o_, &d_})
     if (is_of_face_with_tolerance(*end)) bound_at_end(*end);
   // Each edge inside of the star is the first or the third one of a face; some of them of two.
-  for (std::size_t i = 0; i < n + 2; ++i)
+  for (std::size_t i = 0; i < n + 2 && !is_beyond_all(); ++i)
     if (const auto& [id, tolerance, corners] = old_faces_[i]; tolerance < Tolerances::kAny) {
       bound_at_crossings(*corners[0], *corners[1]);
       bound_at_crossings(*corners[0], *corners[2]);
@@ -183,6 +190,7 @@ void ToleranceGuard::raise_apex(double weight, double rest, double needed) {
 }
 
 void ToleranceGuard::set_new_tolerances() {
+  if (least_tolerance_ == greatest_tolerance_) return new_tolerances_.assign(link_.size(), least_tolerance_);
   new_tolerances_.assign(link_.size(), Tolerances::kAny);
   for (std::size_t i = 0; i < link_.size(); ++i)
     for (const OldFace& face : old_faces_)
@@ -214,7 +222,7 @@ bool ToleranceGuard::overlap(const Corners& a, const Corners& b) {
   const auto separates = [](const Corners& edges, const Corners& others) {
     for (int i = 0; i < 3; ++i) {
       const Point &p = *edges[i], &q = *edges[(i + 1) % 3];
-      const double length = std::hypot(q.x - p.x, q.y - p.y);
+      const double x = q.x - p.x, y = q.y - p.y, length = std::sqrt(x * x + y * y);
       if (std::ranges::all_of(others, [&](const Point* other) {
             return double_area({&p, &q, other}) <= kRoundingOfGuard * length;
           }))

@@ -69,6 +69,7 @@ class ToleranceGuard {
   void bound_at_crossings(const Point& from, const Point& to);
   void raise_apex(double weight, double rest, double needed);
   void set_new_tolerances();
+  bool is_beyond_all() const;
   bool is_within_tolerances() const;
 
   static std::array<Vec3, 3> directions(const Star& star, const Vec3& apex);
@@ -79,6 +80,7 @@ class ToleranceGuard {
   Tolerances& tolerances_;
   std::vector<OldFace> old_faces_;  ///< of the star: those along its link, then the two at the edge
   std::vector<Point> link_;
+  double least_tolerance_ = 0, greatest_tolerance_ = 0;  ///< of them
   Point o_, d_, apex_;
   double scale_ = 1;
   std::vector<double> new_tolerances_;  ///< of the faces along the link
