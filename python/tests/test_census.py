@@ -70,17 +70,40 @@ def test_tells_of_every_robot_and_keeps_it(robots, tmp_path):
     assert census(tmp_path, robots).returncode == 0 and json.loads(kept.read_text())["unchecked"] == 3
 
 
+def test_the_action_judges_a_repository(robots, tmp_path):
+    root = CENSUS.parents[1]
+    yaml = pytest.importorskip("yaml")
+    step, = (step for step in yaml.safe_load((root / "action.yml").read_text())["runs"]["steps"] if step["name"] == "Check robots")
+    assert set(step["env"]) == {"FOLDERS"}
+
+    def run(folder):
+        summary = tmp_path / "summary.md"
+        summary.write_text("")
+        environment = {"PYTHONPATH": str(pathlib.Path(prohull.__file__).parents[1]), "PATH": "/usr/bin:/bin", "FOLDERS": str(folder),
+                       "GITHUB_ACTION_PATH": str(root), "RUNNER_TEMP": str(tmp_path), "GITHUB_STEP_SUMMARY": str(summary)}
+        done = subprocess.run(["bash", "-e", "-c", step["run"]], capture_output=True, text=True, env=environment)
+        return done.returncode, done.stderr, summary.read_text()
+
+    code, told, table = run(robots)
+    assert code == 1 and "covered: 0 of 3 robots; not <b>.xml; not broken.urdf; not chain/chain.urdf" in told
+    assert "| chain/chain.urdf | 3 |" in table
+    good = tmp_path / "good"
+    write_ball(good / "ball.urdf", collision='<collision><geometry><sphere radius="1"/></geometry></collision>')
+    code, told, table = run(good)
+    assert code == 0 and "covered: 1 of 1 robots" in told and "| ball.urdf | 1 | 0 |" in table
+
+
 def test_what_is_wrong_is_one_error(tmp_path):
-    assert "census OUT DIR" in census().stderr
+    assert "census [--strict] OUT DIR" in census().stderr
     run = census(tmp_path / "out", tmp_path / "nowhere")
     assert run.returncode == 1 and run.stderr.startswith("census: there is no folder") and run.stderr.count("\n") == 1
     assert census(tmp_path / "out", tmp_path).returncode == 0
     assert json.loads((tmp_path / "out" / "census.json").read_text()) == []
 
 
-def write_ball(path, name="ball"):
+def write_ball(path, name="ball", collision=""):
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(f'<robot name="{name}"><link name="a"><visual><geometry><sphere radius="1"/></geometry></visual></link></robot>')
+    path.write_text(f'<robot name="{name}"><link name="a"><visual><geometry><sphere radius="1"/></geometry></visual>{collision}</link></robot>')
 
 
 def test_robots_of_one_name_in_folders_of_one_name_are_kept_apart(tmp_path):
