@@ -349,6 +349,16 @@ Nodes connected_nodes(const Grid& grid, std::size_t start, const std::vector<std
   return found;
 }
 
+/// Of the cube around a node, the part that is inside, in place of what such parts of its neighbours outside are. It
+/// fits where the surface is parallel to the grid, as faces of boxes are, on nodes or between them, and the mean of
+/// other places.
+double part_inside(float signed_distance) {
+  constexpr float kOn = 1e-4F;
+  const float depth = -signed_distance;
+  if (depth < kOn) return 0;
+  return depth <= 1 + kOn ? 0.5 + double(depth) : 1;
+}
+
 }  // namespace
 
 std::vector<char> find_cavities(const Grid& grid, const TriangleMesh& closed, const Inside& inside) {
@@ -386,7 +396,7 @@ Inside find_inside(const Grid& grid, const TriangleMesh& triangles, const Inside
     if (!outside[n]) near[n] = -near[n];
   const auto is_deep = [](float d) { return d < -kLeastSeal; };
   if (std::ranges::any_of(near, is_deep))
-    result.volume = static_cast<double>(std::ranges::count_if(near, [](float d) { return d < 0; }));
+    for (const float distance : near) result.volume += part_inside(distance);
   add_doors(grid, crossed, outside, result);
   if (closing > 0) fill(grid, far, closing, outside, result);
   result.largest_door = rooms.largest_door;

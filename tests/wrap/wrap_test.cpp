@@ -166,6 +166,9 @@ TEST(Wrap, TellsTheVolumeInside) {
   const double volume = signed_volume(ball);
   EXPECT_NEAR(wrap(ball, {.spacing = 0.05}).inside_volume / volume, 1, 0.02);
   EXPECT_NEAR(inside_volume(together(ball, ball), {.spacing = 0.05}) / volume, 1, 0.02) << "doubled";
+  for (const double size : {1.0, 1.02, 1.033, 1.049})
+    EXPECT_NEAR(inside_volume(box({0, 0, 0}, {size, size, size}), {.spacing = 0.05}) / std::pow(size, 3), 1, 0.01)
+        << size;
   EXPECT_EQ(inside_volume(make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}), {.spacing = 0.05}), 0);
 }
 
