@@ -68,6 +68,13 @@ Pose rotation_about(const Vec3& axis, double angle) {
   return pose_of_quaternion(std::cos(angle / 2), v.x, v.y, v.z);
 }
 
+Pose turn_of_z_to(const Vec3& z) {
+  const Vec3 axis = cross({0, 0, 1}, z);
+  const double sine = norm(axis);
+  if (sine < 1e-10) return z.z > 0 ? Pose{} : of_columns({1, 0, 0}, {0, -1, 0}, {0, 0, -1});
+  return rotation_about(axis, std::atan2(sine, z.z));
+}
+
 Pose translation_by(const Vec3& offset) {
   Pose pose;
   pose.translation = offset;

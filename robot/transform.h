@@ -25,6 +25,9 @@ std::array<double, 4> quaternion_of(const Pose& pose);
 /// About an axis of any length but 0 through the origin, by `angle` radians.
 Pose rotation_about(const Vec3& axis, double angle);
 
+/// The shortest turn that takes the z axis to `z`, of length 1; half a turn about x if that is its opposite.
+Pose turn_of_z_to(const Vec3& z);
+
 Pose translation_by(const Vec3& offset);
 
 }  // namespace prohull::robot

@@ -176,6 +176,18 @@ std::string motion_certificate_text(const std::filesystem::path& folder, const R
                      (folder / file).string());
 }
 
+/// MuJoCo collides with the convex hull of a mesh.
+std::string filled_text(std::span<const LinkHulls> hulls) {
+  const auto concave = std::ranges::count_if(hulls, [](const LinkHulls& link) {
+    return link.collision == Collision::Hull && std::ranges::any_of(link.hulls, [&](const LinkHull& hull) {
+             return hull.certified() && hull.volume < link.convex_volume;
+           });
+  });
+  if (concave == 0) return "";
+  return fmt::format("  MuJoCo collides with the convex hull of a mesh: it fills {}; --collision convex keeps them\n",
+                     counted(std::size_t(concave), "hull that is concave", "hulls that are concave"));
+}
+
 std::string described(const Form& form) {
   static constexpr const char* kNames[] = {"mesh", "box", "sphere", "cylinder", "capsule", "other"};
   return kNames[form.index()];
@@ -369,6 +381,12 @@ void say_disabled(const Robot& robot, const std::string& file, std::span<const D
       count(PairVerdict::Open), refuted > 0 ? fmt::format("{} REFUTED", refuted) : "none refuted");
 }
 
+std::string mujoco_text(const MujocoFiles& made, std::span<const LinkHulls> hulls) {
+  std::string text = fmt::format("  {}: the robot for MuJoCo\n", made.files[0].path.string());
+  for (const std::string& note : made.notes) text += fmt::format("    {}\n", note);
+  return text + filled_text(hulls);
+}
+
 std::string robot_summary(const std::filesystem::path& folder, const ReportInput& facts, bool sampled_pairs) {
   std::size_t hulls = 0, certified = 0;
   for (const LinkHulls& link : facts.hulls)
@@ -376,6 +394,7 @@ std::string robot_summary(const std::filesystem::path& folder, const ReportInput
   const std::string_view covers = cover_words(facts.hulls);
   std::string text = hulls_text(facts) + shipped_text(facts);
   text += certificates_text(facts.certificates);
+  if (facts.file.format == RobotFormat::Mjcf) text += filled_text(facts.hulls);
   if (facts.motion) text += motion_text(*facts.motion, covers, sampled_pairs);
   text += motion_certificate_text(folder, facts);
   if (hulls == 0)

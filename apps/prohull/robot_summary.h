@@ -8,6 +8,7 @@
 #include "robot/files/robot_file.h"
 #include "robot/hulls/link_hulls.h"
 #include "robot/motion/joint_path.h"
+#include "robot/motion/mujoco_files.h"
 #include "robot/report/report.h"
 
 namespace prohull::cli {
@@ -34,6 +35,9 @@ void say_disabled(const robot::Robot& robot, const std::string& file, std::span<
 
 /// What was made into the folder. `sampled_pairs` as of srdf_of.
 std::string robot_summary(const std::filesystem::path& folder, const robot::ReportInput& facts, bool sampled_pairs);
+
+/// What was made for MuJoCo, or would be: the file, its notes, and hulls of which MuJoCo takes more than they are.
+std::string mujoco_text(const robot::MujocoFiles& made, std::span<const robot::LinkHulls> hulls);
 
 /// Whether all hulls of a link are certified; true of a link without any.
 bool is_certified(const robot::LinkHulls& link);

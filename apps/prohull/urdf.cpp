@@ -19,6 +19,7 @@
 #include "robot/motion/bodies.h"
 #include "robot/motion/joint_limits.h"
 #include "robot/motion/motion.h"
+#include "robot/motion/mujoco_files.h"
 #include "robot/motion/planner_files.h"
 #include "robot/report/report.h"
 #include "robot_folder.h"
@@ -35,7 +36,7 @@ struct UrdfOptions {
   path in, out, budgets, write_budgets, cache, report, junit, html, srdf;
   FileOptions file;
   LinkHullOptions hulls;
-  std::string max_distance = "0", gap = "0", allow = "0", package;
+  std::string max_distance = "0", gap = "0", allow = "0", package, to;
   bool certificate = false, check = false, dry_run = false, no_cache = false, no_pictures = false,
        sampled_pairs = false;
   MotionOptions motion{.configurations = 1000};
@@ -130,7 +131,7 @@ std::string run_key(const UrdfOptions& options, const RobotFile& file, std::span
   key.add(std::size_t(options.hulls.from)), key.add(std::size_t(options.hulls.skip_missing)), key.add(options.package);
   key.add(std::size_t(options.certificate)), key.add(std::size_t(options.no_pictures)),
       key.add(std::size_t(view::has_page())), key.add(options.motion.configurations), key.add(options.proof.cells);
-  key.add(std::size_t(options.motion.seed)), key.add(std::size_t(options.sampled_pairs));
+  key.add(std::size_t(options.motion.seed)), key.add(std::size_t(options.sampled_pairs)), key.add(options.to);
   return key.text();
 }
 
@@ -203,9 +204,19 @@ void write_pairs(const UrdfOptions& options, const ReportInput& facts, const Rob
   const std::string stem = robot_stem(facts.file);
   folder.add(stem + ".srdf", srdf_of(facts.file.robot, *facts.motion, options.sampled_pairs));
   if (files.balls.empty() || facts.file.format != RobotFormat::Urdf) return;
-  const PlannerRobot planned{facts.file.robot, files.balls, facts.motion->pairs, files.robot.string()};
+  const PlannerRobot planned{facts.file.robot, files.balls, facts.motion->pairs, files.robots[0].first.string()};
   folder.add(stem + "_curobo.yml", curobo_file(planned));
   folder.add(stem + ".xrdf", xrdf_file(planned));
+}
+
+/// The robot for MuJoCo, without contacts of the pairs of the SRDF. Returns sentences for the user.
+std::string write_mjcf(const UrdfOptions& options, const ReportInput& facts, const RobotFiles& files,
+                       RobotFolder& folder) {
+  const Robot& robot = facts.file.robot;
+  const MujocoFiles made = mujoco_files(
+      facts.file, files, facts.motion ? pairs_left_out(*facts.motion, options.sampled_pairs) : adjacent_pairs(robot));
+  for (const OutputFile& file : made.files) folder.add(file.path, file.write);
+  return mujoco_text(made, facts.hulls);
 }
 
 void write_report(const UrdfOptions& options, ReportInput& facts, const RobotFiles& files, RobotFolder& folder) {
@@ -245,7 +256,8 @@ WriteOptions write_options(const UrdfOptions& options) {
   return {.faces = options.hulls.budget.faces,
           .from = options.hulls.from,
           .format = options.hulls.format,
-          .package = options.package};
+          .package = options.package,
+          .to_mjcf = !options.to.empty()};
 }
 
 /// Says what would be copied, if all links that may get hulls get them.
@@ -266,6 +278,11 @@ int run_dry(const UrdfOptions& options, const RobotFile& file) {
   check_options(file, write_options(options));
   const bool is_possible = say_plan(file, options.hulls);
   say_package_plan(options, file);
+  if (!options.to.empty()) {
+    RobotFiles as_read;
+    as_read.robots.emplace_back(file.path.filename(), file.robot);
+    say("{}", mujoco_text(mujoco_files(file, as_read, {}), {}));
+  }
   say("nothing was written: --dry-run\n");
   return is_possible ? kDone : kBadInput;
 }
@@ -301,10 +318,11 @@ int run_build(const UrdfOptions& options, const RobotFile& file) {
   facts.seconds = watch.seconds();
   sign(facts, {options.budgets});
   const bool is_done = is_covered && (!facts.motion || facts.motion->missed() == 0);
+  const std::string mjcf = options.to.empty() ? "" : write_mjcf(options, facts, files, folder);
   write_report(options, facts, files, folder);
   folder.commit(report_json(facts), key, is_done ? kDone : kAnswerIsNo);
-  say("{}{}  {:.1f} s\n", robot_summary(options.out, facts, options.sampled_pairs),
-      options.package.empty() ? "" : package_text(files.copies, files.left), watch.seconds());
+  say("{}{}{}  {:.1f} s\n", robot_summary(options.out, facts, options.sampled_pairs),
+      options.package.empty() ? "" : package_text(files.copies, files.left), mjcf, watch.seconds());
   return is_done ? kDone : kAnswerIsNo;
 }
 
@@ -460,6 +478,12 @@ void add_urdf(CLI::App& app, Run& run) {
             "meshes, textures and other files that the robot names, and package:// URIs. What is not found stays as it "
             "is, and the summary names it.")
       ->check([](const std::string& name) { return name.empty() ? std::string("--package needs a name") : ""; });
+  CLI::Option* const to =
+      add_value(command, "--to", options->to, "mjcf",
+                "Also write the robot, a URDF file, as MJCF: ROBOT.xml, for MuJoCo. It has the masses, joints and "
+                "colours of the file, the new collision geometry, its visual meshes as STL files in meshes/visual, and "
+                "no contacts between the pairs of links in the SRDF.")
+          ->transform(one_of("--to", {"mjcf"}));
   command.add_flag("--tight", options->hulls.tight, "Build tight hulls: least volume, but some 4 times as slow.");
   command.add_flag("--skip-missing", options->hulls.skip_missing,
                    "Leave links whose mesh files are not found as they are: nothing is proven of them, and the exit "
@@ -482,13 +506,14 @@ void add_urdf(CLI::App& app, Run& run) {
   CLI::Option* const write_budgets = add_budgets(command, *options);
   add_motion(command, *options);
   CLI::Option* const check = add_check(command, *options);
-  check->excludes(out)->excludes(dry_run)->excludes(write_budgets)->excludes(certificate);
+  check->excludes(out)->excludes(dry_run)->excludes(write_budgets)->excludes(certificate)->excludes(to);
   write_budgets->excludes(out)->excludes(dry_run);
   add_examples(
       command,
       {"prohull urdf arm.urdf -o arm_safe", "prohull urdf arm.urdf -o arm_safe --faces 500,100 --gap 5mm",
        "prohull urdf arm.xml -o arm_convex --collision convex --pieces 16",
        "prohull urdf arm.urdf -o arm_spheres --collision spheres --spheres 64",
+       "prohull urdf arm.urdf -o arm_mujoco --to mjcf --collision convex",
        "prohull urdf arm.urdf -o arm_safe --certificate",
        "prohull urdf arm.urdf -o arm_safe --package arm_safe --package-path ~/ws/src",
        "prohull urdf arm.urdf --write-budgets budgets.yaml", "prohull urdf arm.urdf -o arm_safe --budgets budgets.yaml",

@@ -14,14 +14,6 @@ namespace {
 
 bool is_true(const std::string* value) { return value && *value == "true"; }
 
-/// The shortest turn that takes the z axis to `z`, of length 1; half a turn about x if that is its opposite.
-Pose turn_of_z_to(const Vec3& z) {
-  const Vec3 axis = cross({0, 0, 1}, z);
-  const double sine = norm(axis);
-  if (sine < 1e-10) return z.z > 0 ? Pose{} : of_columns({1, 0, 0}, {0, -1, 0}, {0, 0, -1});
-  return rotation_about(axis, std::atan2(sine, z.z));
-}
-
 /// Lower case letters turn about the axes that were turned before, upper case letters about those of the parent.
 Pose euler_rotation(const std::vector<double>& angles, const std::string& sequence, double unit) {
   Pose pose;
@@ -76,6 +68,16 @@ std::vector<double> mjcf_numbers(const MjcfModel& model, const MjcfElement& elem
         fmt::format("{}='{}' of <{}> has {} numbers, expected {}", attribute, *text, element.element->name,
                     values.size(), least == most ? std::to_string(least) : fmt::format("{} to {}", least, most)));
   return values;
+}
+
+std::vector<MjcfAttribute> mjcf_attributes_of(const Pose& pose) {
+  std::vector<MjcfAttribute> result;
+  const Vec3& t = pose.translation;
+  if (t != Vec3{}) result.emplace_back("pos", fmt::format("{} {} {}", t.x, t.y, t.z));
+  if (pose.rotation == Pose{}.rotation) return result;
+  const std::array<double, 4> q = quaternion_of(pose);
+  result.emplace_back("quat", fmt::format("{} {} {} {}", q[0], q[1], q[2], q[3]));
+  return result;
 }
 
 Pose mjcf_pose(const MjcfModel& model, const MjcfElement& element) {

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "robot/files/xml.h"
@@ -105,6 +106,11 @@ class MjcfModel {
   std::size_t world_geoms_ = 0;
   std::vector<std::string> notes_;
 };
+
+using MjcfAttribute = std::pair<std::string, std::string>;
+
+/// The pose as pos and quat, where they are not those of a geom that says nothing.
+std::vector<MjcfAttribute> mjcf_attributes_of(const Pose& pose);
 
 /// The pose that pos and quat, axisangle, euler, xyaxes or zaxis say, fromto too where that is allowed.
 Pose mjcf_pose(const MjcfModel& model, const MjcfElement& element);

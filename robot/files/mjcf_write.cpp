@@ -15,8 +15,6 @@ namespace fs = std::filesystem;
 namespace prohull::robot {
 namespace {
 
-using Attribute = std::pair<std::string, std::string>;
-
 // What says the shape and the place of a geom.
 constexpr std::array<std::string_view, 14> kShapeAttributes{
     "type", "size",  "mesh",   "hfield", "fitscale",  "fromto",     "pos",
@@ -26,17 +24,6 @@ constexpr std::array<std::string_view, 7> kPoseAttributes{"fromto", "pos",   "qu
 
 bool is_shape_attribute(std::string_view name) {
   return std::ranges::find(kShapeAttributes, name) != kShapeAttributes.end();
-}
-
-/// The pose as pos and quat, where they are not those of a geom that says nothing.
-std::vector<Attribute> attributes_of(const Pose& pose) {
-  std::vector<Attribute> result;
-  const Vec3& t = pose.translation;
-  if (t != Vec3{}) result.emplace_back("pos", fmt::format("{} {} {}", t.x, t.y, t.z));
-  if (pose.rotation == Pose{}.rotation) return result;
-  const std::array<double, 4> q = quaternion_of(pose);
-  result.emplace_back("quat", fmt::format("{} {} {} {}", q[0], q[1], q[2], q[3]));
-  return result;
 }
 
 class MjcfWriter {
@@ -90,10 +77,10 @@ class MjcfWriter {
 
   /// A geom that is written.
   struct NewGeom {
-    const XmlElement* beside = nullptr;  ///< the geom that it stands after; none: at the end of the body
-    const XmlElement* home = nullptr;    ///< the <body> or <frame> that it is in
-    std::string child_class;             ///< that applies there
-    std::vector<Attribute> attributes;   ///< without the name
+    const XmlElement* beside = nullptr;     ///< the geom that it stands after; none: at the end of the body
+    const XmlElement* home = nullptr;       ///< the <body> or <frame> that it is in
+    std::string child_class;                ///< that applies there
+    std::vector<MjcfAttribute> attributes;  ///< without the name
     std::string name;
   };
 
@@ -108,7 +95,7 @@ class MjcfWriter {
   NewGeom hull_geom(const std::string& hull, const NewCollision& collision, const MjcfBody& body,
                     const std::vector<MjcfElement>& from, const MjcfElement* like) {
     NewGeom geom{nullptr, body.element, body.child_class, {}, ""};
-    std::vector<Attribute> shape{{"type", "mesh"}, {"mesh", add_mesh(hull, body)}};
+    std::vector<MjcfAttribute> shape{{"type", "mesh"}, {"mesh", add_mesh(hull, body)}};
     if (collision.same_origin_as) {
       const MjcfElement& same = from.at(*collision.same_origin_as);
       geom.beside = same.element, geom.home = same.home;
@@ -122,32 +109,32 @@ class MjcfWriter {
   NewGeom ball_geom(const Ball& ball, const MjcfBody& body, const MjcfElement* like) {
     refuse_fromto();
     NewGeom geom{nullptr, body.element, body.child_class, {}, ""};
-    std::vector<Attribute> shape{{"type", "sphere"}, {"size", fmt::format("{}", ball.radius)}};
-    append(shape, attributes_of(Pose{.translation = ball.center}));
+    std::vector<MjcfAttribute> shape{{"type", "sphere"}, {"size", fmt::format("{}", ball.radius)}};
+    append(shape, mjcf_attributes_of(Pose{.translation = ball.center}));
     geom.attributes = with_shape(like, geom, std::move(shape), body);
     return geom;
   }
 
   NewGeom kept_geom(const MjcfElement& visual, const MjcfBody& body, const MjcfElement* like) {
     NewGeom geom{visual.element, visual.home, body.child_class, {}, ""};
-    std::vector<Attribute> shape;
+    std::vector<MjcfAttribute> shape;
     for (const std::string_view key : kShapeAttributes)
       if (const std::string* value = model_.value(visual, key)) shape.emplace_back(key, *value);
     geom.attributes = with_shape(like, geom, std::move(shape), body);
     return geom;
   }
 
-  static void append(std::vector<Attribute>& to, std::vector<Attribute> more) {
+  static void append(std::vector<MjcfAttribute>& to, std::vector<MjcfAttribute> more) {
     std::ranges::move(more, std::back_inserter(to));
   }
 
   /// The words of the file if they mean just this pose, else numbers.
-  std::vector<Attribute> pose_attributes(const MjcfElement& geom, const Pose& origin) const {
+  std::vector<MjcfAttribute> pose_attributes(const MjcfElement& geom, const Pose& origin) const {
     const Pose said = mjcf_pose(model_, geom);
     const Pose in_body = geom.frame == Pose{} ? said : composed(geom.frame, said);
     if (in_body != origin || model_.value(geom, "fromto"))
-      return attributes_of(geom.frame == Pose{} ? origin : composed(inverse(geom.frame), origin));
-    std::vector<Attribute> words;
+      return mjcf_attributes_of(geom.frame == Pose{} ? origin : composed(inverse(geom.frame), origin));
+    std::vector<MjcfAttribute> words;
     for (const std::string_view key : kPoseAttributes)
       if (const std::string* value = model_.value(geom, key)) words.emplace_back(key, *value);
     return words;
@@ -155,11 +142,11 @@ class MjcfWriter {
 
   /// The attributes of the geom that is replaced, with another shape. Without such a geom: one that collides, in the
   /// group that viewers hide, and that adds no mass.
-  std::vector<Attribute> with_shape(const MjcfElement* like, const NewGeom& geom, std::vector<Attribute> shape,
-                                    const MjcfBody& body) const {
+  std::vector<MjcfAttribute> with_shape(const MjcfElement* like, const NewGeom& geom, std::vector<MjcfAttribute> shape,
+                                        const MjcfBody& body) const {
     const std::string place_class = class_at(geom.home, body);
     if (class_has_pose(model_.main_class())) add_missing_pose(shape);
-    std::vector<Attribute> result;
+    std::vector<MjcfAttribute> result;
     if (!like) {
       if (place_class.empty() || class_has_pose(place_class)) result.emplace_back("class", model_.main_class());
       append(result, {{"contype", "1"}, {"conaffinity", "1"}, {"group", "3"}, {"mass", "0"}});
@@ -178,9 +165,9 @@ class MjcfWriter {
   }
 
   /// Says what is the same without a word, against a class that says something else.
-  static void add_missing_pose(std::vector<Attribute>& shape) {
+  static void add_missing_pose(std::vector<MjcfAttribute>& shape) {
     const auto says = [&](std::string_view key) {
-      return std::ranges::any_of(shape, [&](const Attribute& it) { return it.first == key; });
+      return std::ranges::any_of(shape, [&](const MjcfAttribute& it) { return it.first == key; });
     };
     if (!says("pos")) shape.emplace_back("pos", "0 0 0");
     if (std::ranges::none_of(kMjcfOrientations, says)) shape.emplace_back("quat", "1 0 0 0");
@@ -192,8 +179,8 @@ class MjcfWriter {
   }
 
   /// What the class of a geom says, and the geom does not, but for its shape.
-  std::vector<Attribute> inherited(const MjcfElement& geom) const {
-    std::vector<Attribute> result;
+  std::vector<MjcfAttribute> inherited(const MjcfElement& geom) const {
+    std::vector<MjcfAttribute> result;
     for (const auto& [key, value] : model_.defaults(geom.class_name, "geom"))
       if (!is_shape_attribute(key) && key != "class" && !geom.element->attribute(key)) result.emplace_back(key, value);
     return result;
@@ -218,7 +205,7 @@ class MjcfWriter {
     if (count < 2 || !model_.value(old, "mass")) return;
     const double part = mjcf_numbers(model_, old, "mass", 1, 1)[0] / static_cast<double>(count);
     for (std::size_t i = 0; i < count; ++i) {
-      std::erase_if(geoms[i].attributes, [](const Attribute& it) { return it.first == "mass"; });
+      std::erase_if(geoms[i].attributes, [](const MjcfAttribute& it) { return it.first == "mass"; });
       geoms[i].attributes.emplace_back("mass", fmt::format("{}", part));
     }
   }

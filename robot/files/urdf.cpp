@@ -33,6 +33,20 @@ bool has_axis(JointType type) {
          type == JointType::Planar;
 }
 
+// Numbers, up to 1e100: products of some stay finite
+
+double bounded(const XmlDocument& document, const XmlElement& element, double number) {
+  if (std::abs(number) <= kLargest) return number;
+  document.refuse(element, fmt::format("<{}> has the number {}, which is beyond {}", element.name, number, kLargest));
+}
+
+Vec3 bounded_vector(const XmlDocument& document, const XmlElement& element, std::string_view attribute,
+                    const Vec3& fallback) {
+  const Vec3 vector = document.vector(element, attribute, fallback);
+  for (int axis = 0; axis < 3; ++axis) bounded(document, element, vector[axis]);
+  return vector;
+}
+
 /// Links or joints by their names.
 class NameTable {
  public:
@@ -155,35 +169,12 @@ class UrdfReader {
     return number(element, attribute, 0);
   }
 
-  Pose origin(const XmlElement& parent) const {
-    const XmlElement* const element = parent.child("origin");
-    if (!element) return {};
-    const Vec3 translation = vector(*element, "xyz", {});
-    const std::string* const quaternion = element->attribute("quat_xyzw");
-    if (!quaternion) return pose_of_rpy(vector(*element, "rpy", {}), translation);
-    std::vector<double> q = document_.numbers(*element, *quaternion);
-    double longest = 0;
-    for (const double part : q) longest = std::max(longest, std::abs(part));
-    if (q.size() != 4 || longest == 0)
-      document_.refuse(*element, "quat_xyzw of <origin>: expected four numbers that are not all 0");
-    for (double& part : q) part /= longest;
-    return pose_of_quaternion(q[3], q[0], q[1], q[2], translation);
-  }
-
-  // Numbers, up to 1e100: products of some stay finite
-
-  double bounded(const XmlElement& element, double number) const {
-    if (std::abs(number) <= kLargest) return number;
-    document_.refuse(element,
-                     fmt::format("<{}> has the number {}, which is beyond {}", element.name, number, kLargest));
-  }
+  Pose origin(const XmlElement& parent) const { return urdf_origin(document_, parent); }
   double number(const XmlElement& element, std::string_view attribute, double fallback) const {
-    return bounded(element, document_.number(element, attribute, fallback));
+    return bounded(document_, element, document_.number(element, attribute, fallback));
   }
   Vec3 vector(const XmlElement& element, std::string_view attribute, const Vec3& fallback) const {
-    const Vec3 vector = document_.vector(element, attribute, fallback);
-    for (int axis = 0; axis < 3; ++axis) bounded(element, vector[axis]);
-    return vector;
+    return bounded_vector(document_, element, attribute, fallback);
   }
 
   // Joints
@@ -353,6 +344,21 @@ class UrdfReader {
 };
 
 }  // namespace
+
+Pose urdf_origin(const XmlDocument& document, const XmlElement& parent) {
+  const XmlElement* const element = parent.child("origin");
+  if (!element) return {};
+  const Vec3 translation = bounded_vector(document, *element, "xyz", {});
+  const std::string* const quaternion = element->attribute("quat_xyzw");
+  if (!quaternion) return pose_of_rpy(bounded_vector(document, *element, "rpy", {}), translation);
+  std::vector<double> q = document.numbers(*element, *quaternion);
+  double longest = 0;
+  for (const double part : q) longest = std::max(longest, std::abs(part));
+  if (q.size() != 4 || longest == 0)
+    document.refuse(*element, "quat_xyzw of <origin>: expected four numbers that are not all 0");
+  for (double& part : q) part /= longest;
+  return pose_of_quaternion(q[3], q[0], q[1], q[2], translation);
+}
 
 RobotFile read_urdf(const XmlDocument& document, const Packages& packages) {
   return UrdfReader(document, packages).read();

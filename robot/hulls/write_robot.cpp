@@ -46,6 +46,21 @@ bool has_ball(const Link& link, const Ball& ball) {
   });
 }
 
+/// The robot that with_collisions writes. Meshes of hulls have no path, because they are not written yet.
+Robot with_new_shapes(Robot robot, std::span<const NewCollision> collisions) {
+  for (const NewCollision& collision : collisions) {
+    Link& link = robot.links[collision.link];
+    const std::vector<Shape> from = shapes(link, collision.from);
+    const Pose origin = collision.same_origin_as ? from[*collision.same_origin_as].origin : Pose{};
+    link.collision.clear();
+    for (const std::string& hull : collision.hulls) link.collision.push_back({MeshFile{.uri = hull}, origin});
+    for (const Ball& ball : collision.balls)
+      link.collision.push_back({SphereForm{ball.radius}, {.translation = ball.center}});
+    for (const std::size_t kept : collision.kept) link.collision.push_back(from[kept]);
+  }
+  return robot;
+}
+
 bool is_package_name(const std::string& name) {
   const auto is_known = [](unsigned char c) { return std::islower(c) || std::isdigit(c) || c == '_' || c == '-'; };
   return std::islower(static_cast<unsigned char>(name[0])) && std::ranges::all_of(name, is_known);
@@ -107,7 +122,8 @@ class RobotSet {
     require_balls(text, folder / name);
     files_.push_back(text_file(name, std::move(text)));
     if (!balls_.empty()) files_.push_back(text_file(robot_stem(file_) + "_spheres.yaml", sphere_file(balls_)));
-    if (set_ == 0) all.robot = name, all.balls = balls_;
+    if (set_ == 0) all.balls = balls_;
+    all.robots.emplace_back(name, with_new_shapes(file_.robot, collisions_));
     std::ranges::move(files_, std::back_inserter(all.files));
     std::ranges::move(hulls_, std::back_inserter(all.hulls));
   }
@@ -192,7 +208,13 @@ void check_options(const RobotFile& file, const WriteOptions& options) {
                      fmt::format("'{}' is no name of a package: it begins with a lower-case letter, and has lower-case "
                                  "letters, digits, _ and - only",
                                  options.package));
-  if (file.format != RobotFormat::Mjcf) return;
+  if (options.to_mjcf && file.format != RobotFormat::Urdf)
+    throw InputError(Defect::InvalidOption, fmt::format("{}: only URDF becomes MJCF", file.path.string()));
+  if (file.format != RobotFormat::Mjcf && !options.to_mjcf) return;
+  if (options.format == "stl" && std::ranges::max(options.faces) > kMostMujocoStlFaces)
+    throw InputError(Defect::InvalidOption, fmt::format("MuJoCo reads no STL files of more than {} faces; choose obj "
+                                                        "as the format, or fewer faces",
+                                                        kMostMujocoStlFaces));
   if (options.format == "glb")
     throw InputError(Defect::InvalidOption, "MuJoCo does not read GLB files; choose stl or obj as the format");
   if (!options.package.empty())

@@ -5,6 +5,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "robot/files/robot_file.h"
@@ -25,8 +26,9 @@ struct HullFiles {
 
 struct RobotFiles {
   std::vector<OutputFile> files;
-  std::vector<HullFiles> hulls;                                   ///< which of them are those of hulls
-  std::filesystem::path robot;                                    ///< the robot with the first number of faces
+  std::vector<HullFiles> hulls;  ///< which of them are those of hulls
+  /// Each robot, by its file; the one with the first number of faces comes first.
+  std::vector<std::pair<std::filesystem::path, Robot>> robots;
   std::vector<LinkBalls> balls;                                   ///< its spheres, as ROBOT_spheres.yaml has them
   std::map<std::filesystem::path, std::filesystem::path> copies;  ///< as PackageFiles::copies
   std::set<std::string> left;                                     ///< as PackageFiles::left
@@ -39,7 +41,11 @@ struct WriteOptions {
   /// The package that the new files make up, with a package.xml and copies of what the robot names; URIs begin with
   /// package://PACKAGE/. Empty: no package, and URIs are relative paths.
   std::string package;
+  bool to_mjcf = false;  ///< MuJoCo is going to read the hulls
 };
+
+/// MuJoCo reads no STL file of more.
+inline constexpr std::size_t kMostMujocoStlFaces = 200'000;
 
 /// "arm" of arm.urdf and of arm.urdf.xacro: what the names of its files begin with.
 std::string robot_stem(const RobotFile& file);
@@ -51,7 +57,7 @@ OutputFile text_file(std::filesystem::path name, std::string text);
 void write_certified(const std::filesystem::path& target, const TriangleMesh& mesh);
 
 /// Throws InputError(InvalidOption) for the name of a package that ROS does not take, and for what MuJoCo does not
-/// read: GLB files and packages.
+/// read, of MJCF and with `to_mjcf`: GLB files, STL files of so many faces, and packages. Only URDF becomes MJCF.
 void check_options(const RobotFile& file, const WriteOptions& options);
 
 /// The files of a robot whose collision elements name the hulls. With the first number of faces the robot has the name

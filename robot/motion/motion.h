@@ -101,6 +101,9 @@ PairVerdicts verdicts_of(const MotionResult& motion);
 /// The pairs that are adjacent, or in collision always, proven or as sampled.
 std::vector<LinkPair> pairs_always_together(const MotionResult& motion);
 
+/// The pairs that srdf_of lists.
+std::vector<LinkPair> pairs_left_out(const MotionResult& motion, bool sampled_pairs = false);
+
 /// A <disable_collisions> element of an SRDF file; or what <disable_default_collisions> says of a pair, with that as
 /// the reason: of its link and each other one with geometry, but for those that <enable_collisions> names.
 struct DisabledRow {

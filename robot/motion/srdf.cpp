@@ -36,6 +36,10 @@ DisabledRow row_of(const Robot& robot, std::string link1, std::string link2, std
   return row;
 }
 
+bool is_left_out(const MotionPair& pair, bool sampled_pairs) {
+  return pair.kind != PairKind::Sometimes && (sampled_pairs || !is_sampled(pair.kind));
+}
+
 /// Adds rows of links all pairs of which are disabled, but for pairs that are enabled. A pair that has a row of its own
 /// keeps it.
 void add_default_rows(const Robot& robot, const XmlDocument& document, std::vector<DisabledRow>& rows) {
@@ -69,6 +73,13 @@ std::vector<LinkPair> pairs_always_together(const MotionResult& motion) {
   return pairs;
 }
 
+std::vector<LinkPair> pairs_left_out(const MotionResult& motion, bool sampled_pairs) {
+  std::vector<LinkPair> pairs;
+  for (const MotionPair& pair : motion.pairs)
+    if (is_left_out(pair, sampled_pairs)) pairs.emplace_back(pair.a, pair.b);
+  return pairs;
+}
+
 std::vector<DisabledRow> disabled_rows(const Robot& robot, std::string srdf, std::string file) {
   const XmlDocument document(std::move(srdf), std::move(file));
   if (document.root().name != "robot") document.refuse(document.root(), "an SRDF file begins with <robot>");
@@ -93,7 +104,7 @@ std::vector<LinkPair> disabled_pairs(const Robot& robot, std::string srdf, std::
 std::string srdf_of(const Robot& robot, const MotionResult& motion, bool sampled_pairs) {
   std::vector<std::string> lines;
   for (const MotionPair& pair : motion.pairs) {
-    if (pair.kind == PairKind::Sometimes || (is_sampled(pair.kind) && !sampled_pairs)) continue;
+    if (!is_left_out(pair, sampled_pairs)) continue;
     const auto [first, second] = std::minmax(robot.links[pair.a].name, robot.links[pair.b].name);
     lines.push_back(fmt::format("  <disable_collisions link1=\"{}\" link2=\"{}\" {}\n", xml_escaped(first),
                                 xml_escaped(second), reason_of(pair.kind)));

@@ -9,6 +9,7 @@
 #include "prohull/mesh_query.h"
 #include "prohull/sample.h"
 #include "random.h"
+#include "robot/files/inertial.h"
 #include "robot/files/robot_file.h"
 #include "robot/motion/kinematics.h"
 #include "robot/robot_testing.h"
@@ -165,12 +166,7 @@ TEST_F(InMujoco, MshFilesAreReadAsMujocoReadsThem) {
 }
 
 /// The largest distance between where MuJoCo has the frames of the bodies, and where link_poses has them.
-double largest_deviation(const mjModel& model, mjData& data, const Robot& robot) {
-  std::vector<double> positions;
-  for (const Joint& joint : robot.joints) {
-    const int id = mj_name2id(&model, mjOBJ_JOINT, joint.name.c_str());
-    positions.push_back(id < 0 ? 0 : data.qpos[model.jnt_qposadr[id]]);
-  }
+double largest_deviation(const mjModel& model, mjData& data, const Robot& robot, const std::vector<double>& positions) {
   mj_kinematics(&model, &data);
   const std::vector<Pose> poses = link_poses(robot, positions);
   double largest = 0;
@@ -185,6 +181,16 @@ double largest_deviation(const mjModel& model, mjData& data, const Robot& robot)
     }
   }
   return largest;
+}
+
+/// Likewise, where the positions are those of MuJoCo.
+double largest_deviation(const mjModel& model, mjData& data, const Robot& robot) {
+  std::vector<double> positions;
+  for (const Joint& joint : robot.joints) {
+    const int id = mj_name2id(&model, mjOBJ_JOINT, joint.name.c_str());
+    positions.push_back(id < 0 ? 0 : data.qpos[model.jnt_qposadr[id]]);
+  }
+  return largest_deviation(model, data, robot, positions);
 }
 
 TEST_F(InMujoco, BodiesStandWhereMujocoHasThem) {
@@ -216,6 +222,140 @@ TEST_F(InMujoco, BodiesStandWhereMujocoHasThem) {
     EXPECT_NEAR(robot.joints[j].lower, model->jnt_range[2 * j], 1e-12);
     EXPECT_NEAR(robot.joints[j].upper, model->jnt_range[2 * j + 1], 1e-12);
   }
+}
+
+// URDF that became MJCF
+
+/// At random positions, bodies are where the URDF file has its links, and no mimic pulls.
+void expect_same_motion(const mjModel& model, const Robot& robot) {
+  const Data data(mj_makeData(&model), mj_deleteData);
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> at(-2, 2);
+  for (int k = 0; k < 20; ++k) {
+    std::vector<double> positions;
+    for (const Joint& joint : robot.joints)
+      positions.push_back(joint.lower == joint.upper ? joint.lower : moves(joint) ? at(random) : 0);
+    follow(robot, positions);
+    for (std::size_t j = 0; j < robot.joints.size(); ++j)
+      if (const int id = mj_name2id(&model, mjOBJ_JOINT, robot.joints[j].name.c_str());
+          moves(robot.joints[j]) && id >= 0)
+        data->qpos[model.jnt_qposadr[id]] = positions[j];
+    EXPECT_LT(largest_deviation(model, *data, robot, positions), 1e-9);
+    mj_fwdPosition(&model, data.get());
+    for (int row = 0; row < data->ne; ++row) EXPECT_NEAR(data->efc_pos[row], 0, 1e-9);
+  }
+}
+
+/// The moments about the axes of the body, and the products.
+InertiaTensor tensor_of(const mjModel& model, int body) {
+  const mjtNum *const q = model.body_iquat + 4 * body, *const moments = model.body_inertia + 3 * body;
+  const Pose turn = pose_of_quaternion(q[0], q[1], q[2], q[3]);
+  const Pose diagonal{{Vec3{moments[0], 0, 0}, Vec3{0, moments[1], 0}, Vec3{0, 0, moments[2]}}, {}};
+  return composed(composed(turn, diagonal), inverse(turn)).rotation;
+}
+
+void expect_same_masses(const mjModel& model, const RobotFile& urdf) {
+  const XmlDocument document(urdf.text, "test");
+  for (const XmlElement* link : document.root().children_called("link")) {
+    const int body = mj_name2id(&model, mjOBJ_BODY, link->attribute("name")->c_str());
+    const auto inertial = urdf_inertial(document, *link);
+    if (!inertial) {
+      EXPECT_EQ(model.body_mass[body] > 0, model.body_dofnum[body] > 0) << "MuJoCo asks for the mass of all that moves";
+      continue;
+    }
+    EXPECT_EQ(model.body_mass[body], inertial->mass);
+    const Pose turn{inertial->origin.rotation, {}};
+    const InertiaTensor expected = composed(composed(turn, {inertial->tensor, {}}), inverse(turn)).rotation,
+                        found = tensor_of(model, body);
+    for (int row = 0; row < 3; ++row) {
+      EXPECT_NEAR(model.body_ipos[3 * body + row], inertial->origin.translation[row], 1e-12);
+      for (int column = 0; column < 3; ++column)
+        EXPECT_NEAR(found[row][column], expected[row][column], 1e-9 * norm(expected[row]) + 1e-12);
+    }
+  }
+}
+
+TEST_F(InMujoco, RobotsBecomeMjcf) {
+  for (const char* const name : {"gripper", "mobile-base"}) {
+    prohull(fmt::format("sample {0} -o {0}", name));
+    prohull(fmt::format("urdf {0}/{0}.urdf --to mjcf --faces 60 --configurations 0 --no-pictures -o {0}_made", name));
+    const Model model = load(folder_.path() / fmt::format("{0}_made/{0}.xml", name));
+    ASSERT_TRUE(model);
+    const RobotFile urdf = read_robot(folder_.path() / fmt::format("{0}/{0}.urdf", name));
+    expect_same_motion(*model, urdf.robot);
+    expect_same_masses(*model, urdf);
+    const RobotFile again = read_robot(folder_.path() / fmt::format("{0}_made/{0}.xml", name));
+    const Model same = load(again.path);
+    expect_same_motion(*same, again.robot);
+  }
+}
+
+constexpr const char* kJoints = R"(<robot name="r"><material name="red"><color rgba="1 0 0 1"/></material>
+<link name="world"><collision><geometry><box size="9 9 1"/></geometry></collision></link>
+<link name="base"><inertial><origin xyz="0 0 1" rpy="1 2 3"/><mass value="5"/>
+  <inertia ixx="1" iyy="2" izz="2.5" ixy="0.1" ixz="-0.2" iyz="0.3"/></inertial>
+  <visual><origin xyz="1 0 0" rpy="0 1 0"/><geometry><box size="1 2 3"/></geometry><material name="red"/></visual></link>
+<link name="turning"><inertial><origin rpy="0 0 1"/><mass value="1"/><inertia ixx="1" iyy="1" izz="2"/></inertial></link>
+<link name="sliding"><visual><geometry><sphere radius="1"/></geometry></visual></link>
+<link name="tool"><inertial><origin xyz="1 0 0"/><mass value="2"/><inertia ixx="1" iyy="1" izz="1"/></inertial>
+  <collision><geometry><capsule radius="1" length="2"/></geometry></collision></link>
+<link name="plane"><collision><geometry><cylinder radius="1" length="1"/></geometry></collision></link>
+<link name="flying"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="5"/></inertial></link>
+<link name="held"/><link name="nothing"/><link name="follower"><inertial><mass value="1"/></inertial></link>
+<joint name="f" type="floating"><parent link="world"/><child link="base"/><origin xyz="0 0 1"/></joint>
+<joint name="t" type="continuous"><parent link="base"/><child link="turning"/><origin xyz="1 2 3" rpy="1 2 3"/>
+  <axis xyz="1 2 3"/><dynamics damping="0.5" friction="0.25"/></joint>
+<joint name="s" type="prismatic"><parent link="turning"/><child link="sliding"/><origin rpy="1 0 0"/><axis xyz="0 1 1"/>
+  <limit lower="-1" upper="2" effort="1" velocity="1"/></joint>
+<joint name="x" type="fixed"><parent link="sliding"/><child link="tool"/><origin xyz="1 1 1" rpy="0 0 1"/></joint>
+<joint name="p" type="planar"><parent link="tool"/><child link="plane"/><axis xyz="1 0 1"/></joint>
+<joint name="n" type="floating"><parent link="plane"/><child link="flying"/><origin xyz="0 1 0"/></joint>
+<joint name="h" type="revolute"><parent link="base"/><child link="held"/><axis xyz="0 0 1"/>
+  <limit lower="0.5" upper="0.5" effort="1" velocity="1"/></joint>
+<joint name="e" type="continuous"><parent link="held"/><child link="nothing"/></joint>
+<joint name="m" type="revolute"><parent link="held"/><child link="follower"/><axis xyz="0 1 0"/>
+  <limit lower="-9" upper="9" effort="1" velocity="1"/><mimic joint="t" multiplier="-2" offset="0.5"/></joint>
+</robot>)";
+
+TEST_F(InMujoco, JointsOfAllTypesBecomeMjcf) {
+  write_bytes(folder_ / "r.urdf", kJoints);
+  prohull("urdf r.urdf --to mjcf --configurations 0 --no-pictures -o made");
+  const std::string said = text_of("out");
+  for (const char* const note :
+       {"not in it: effort limits, velocity limits", "equal limits are fixed there: h",
+        "no mass weigh what MuJoCo computes from their collision geometry: plane",
+        "weigh 1 g, as MuJoCo refuses none: nothing", "the mean of their diagonal: flying, follower"})
+    EXPECT_NE(said.find(note), std::string::npos) << note << "\n" << said;
+  const Model model = load(folder_ / "made/r.xml");
+  ASSERT_TRUE(model);
+  const RobotFile urdf = read_robot(folder_ / "r.urdf");
+  expect_same_motion(*model, urdf.robot);
+  const auto body = [&](const char* name) { return mj_name2id(model.get(), mjOBJ_BODY, name); };
+  const auto joint = [&](const char* name) { return mj_name2id(model.get(), mjOBJ_JOINT, name); };
+  EXPECT_EQ(model->jnt_type[joint("f")], mjJNT_FREE);
+  EXPECT_EQ(model->jnt_type[joint("n")], mjJNT_BALL);
+  EXPECT_EQ(model->jnt_type[joint("p_TX")], mjJNT_SLIDE);
+  EXPECT_EQ(model->jnt_limited[joint("t")], 0);
+  EXPECT_EQ(model->jnt_limited[joint("s")], 1);
+  EXPECT_EQ(model->jnt_range[2 * joint("s") + 1], 2);
+  const int dof = model->jnt_dofadr[joint("t")];
+  EXPECT_EQ(model->dof_damping[dof], 0.5);
+  EXPECT_EQ(model->dof_frictionloss[dof], 0.25);
+  EXPECT_EQ(joint("h"), -1);
+  EXPECT_EQ(model->body_mass[body("sliding")], 2) << "that of the tool, which is fixed to it";
+  EXPECT_EQ(model->body_mass[body("tool")], 0);
+  EXPECT_NEAR(model->body_ipos[3 * body("sliding")], 1 + std::cos(1), 1e-12);
+  EXPECT_NEAR(model->body_mass[body("plane")], 1000 * std::acos(-1), 1e-6);
+  EXPECT_EQ(model->body_mass[0], 0);
+  EXPECT_NEAR(model->body_inertia[3 * body("flying")], 7. / 3, 1e-12);
+  const InertiaTensor flat = tensor_of(*model, body("turning"));
+  EXPECT_NEAR(flat[2].z, 2, 1e-8) << "moments of a plate are kept";
+  const int seen = model->body_geomadr[body("base")];
+  EXPECT_EQ(model->geom_group[seen], 2);
+  EXPECT_EQ(model->geom_rgba[4 * seen + 1], 0);
+  EXPECT_EQ(model->geom_contype[seen], 0);
+  EXPECT_EQ(model->geom_size[3 * seen + 2], 1.5);
+  EXPECT_EQ(model->geom_group[model->body_geomadr[body("tool")]], 3);
 }
 
 }  // namespace
