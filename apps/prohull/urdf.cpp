@@ -481,8 +481,9 @@ void add_urdf(CLI::App& app, Run& run) {
   CLI::Option* const to =
       add_value(command, "--to", options->to, "mjcf",
                 "Also write the robot, a URDF file, as MJCF: ROBOT.xml, for MuJoCo. It has the masses, joints and "
-                "colours of the file, the new collision geometry, its visual meshes as STL files in meshes/visual, and "
-                "no contacts between the pairs of links in the SRDF.")
+                "colours of the file, the new collision geometry, its visual meshes as STL or OBJ files in "
+                "meshes/visual, and no "
+                "contacts between the pairs of links in the SRDF.")
           ->transform(one_of("--to", {"mjcf"}));
   command.add_flag("--tight", options->hulls.tight, "Build tight hulls: least volume, but some 4 times as slow.");
   command.add_flag("--skip-missing", options->hulls.skip_missing,

@@ -2,9 +2,11 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +25,7 @@
 #include "robot/hulls/write_robot.h"
 #include "robot/motion/bodies.h"
 #include "robot/motion/motion.h"
+#include "robot/motion/mujoco_files.h"
 #include "robot/report/pictures.h"
 #include "robot/report/report.h"
 #include "verdicts.h"
@@ -180,11 +183,19 @@ py::list facts_of(const RobotHulls& hulls) {
 
 /// (path, a function that writes the file to a path) of each file.
 py::list files_of(const std::shared_ptr<RobotHulls>& hulls, const std::filesystem::path& folder,
-                  const std::string& format, const std::string& package) {
-  const WriteOptions how{
-      .faces = hulls->options.budget.faces, .from = hulls->options.from, .format = format, .package = package};
+                  const std::string& format, const std::string& package, bool to_mjcf) {
+  const WriteOptions how{.faces = hulls->options.budget.faces,
+                         .from = hulls->options.from,
+                         .format = format,
+                         .package = package,
+                         .to_mjcf = to_mjcf};
+  const RobotFiles made = output_files(*hulls->file, hulls->links, folder, how);
+  std::vector<OutputFile> all = made.files;
+  if (to_mjcf)
+    std::ranges::move(mujoco_files(*hulls->file, made, adjacent_pairs(hulls->file->robot)).files,
+                      std::back_inserter(all));
   py::list files;
-  for (const OutputFile& file : output_files(*hulls->file, hulls->links, folder, how).files)
+  for (const OutputFile& file : all)
     files.append(
         py::make_tuple(file.path, py::cpp_function([hulls, write = file.write](const std::filesystem::path& to) {
                          const py::gil_scoped_release released;

@@ -262,19 +262,23 @@ class Hulls(Shown):
     def __iter__(self) -> Iterator[LinkHulls]:
         return iter(self.links)
 
-    def save(self, folder: Path, *, package: Optional[str] = None) -> list[str]:
+    def save(self, folder: Path, *, package: Optional[str] = None, to: Optional[Literal["mjcf"]] = None) -> list[str]:
         """Writes a robot whose collision elements name the hulls, with the hulls beside it. Returns the paths.
 
         folder: is made if it is not there. Each file appears whole or not at all.
         package: make the folder a ROS package of this name, with copies of the files that the robot names.
+        to: "mjcf" also writes a URDF robot as MJCF, for MuJoCo, without contacts between links that a joint connects.
 
-        Raises InputError if the folder is that of the robot itself, and for a name that ROS does not take.
+        Raises InputError if the folder is that of the robot itself, for a name that ROS does not take, and for what
+        MuJoCo does not read.
         """
+        if to is not None:
+            _arrays.one_of("to", to, ("mjcf",))
         out = pathlib.Path(_arrays.path(folder))
         if out.resolve() == pathlib.Path(self.robot.path).resolve().parent:
             raise InputError(f"{out}: the robot itself is in this folder, and would be overwritten; choose another one")
         written = []
-        for name, write in self._core.files(out, self._format, package or ""):
+        for name, write in self._core.files(out, self._format, package or "", to is not None):
             target = out / name
             target.parent.mkdir(parents=True, exist_ok=True)
             with replaced(target) as whole:

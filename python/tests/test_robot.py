@@ -98,6 +98,18 @@ def test_a_saved_robot_passes_its_check(robot, hulls, tmp_path):
         hulls.save(path_of(robot))
 
 
+def test_a_saved_robot_becomes_mjcf(robot, hulls, tmp_path):
+    written = hulls.save(tmp_path / "mujoco", to="mjcf")
+    assert str(tmp_path / "mujoco" / "crane.xml") in written and str(tmp_path / "mujoco" / "crane_60.xml") in written
+    again = prohull.robot.Robot.load(tmp_path / "mujoco" / "crane.xml")
+    assert again.check().passes and np.allclose(again.poses({"turn": 1}), robot.poses({"turn": 1}))
+    text = (tmp_path / "mujoco" / "crane.xml").read_text(encoding="utf-8")
+    assert '<exclude body1="base" body2="arm"/>' in text
+    for wrong in ({"to": "sdf"}, {"to": "mjcf", "package": "crane_safe"}):
+        with pytest.raises(prohull.InputError):
+            hulls.save(tmp_path / "none", **wrong)
+
+
 def path_of(robot):
     return str(robot.path).replace("crane.urdf", "")
 

@@ -48,11 +48,6 @@ std::optional<Inertial> urdf_inertial(const XmlDocument& document, const XmlElem
   return result;
 }
 
-Inertial placed(const Pose& pose, Inertial inertial) {
-  inertial.origin = composed(pose, inertial.origin);
-  return inertial;
-}
-
 std::optional<InertiaTensor> mujoco_tensor(const InertiaTensor& tensor, bool moves) {
   if (is_possible(tensor) || (!moves && tensor == InertiaTensor{})) return tensor;
   const InertiaTensor greater = changed(tensor, 1, 1e-9 * trace(tensor));

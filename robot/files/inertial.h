@@ -21,9 +21,6 @@ struct Inertial {
 /// What <inertial> of a URDF link says; none if it has no mass greater than 0. Throws InputError(Malformed).
 std::optional<Inertial> urdf_inertial(const XmlDocument& document, const XmlElement& link);
 
-/// The same mass in a frame that `pose` places its own frame in.
-Inertial placed(const Pose& pose, Inertial inertial);
-
 /// The tensor as MuJoCo takes it: none if it is that of no body, because a moment is not positive or greater than the
 /// sum of the other two. If these are equal, as of a flat plate, rounding may break the rule: the moments then become
 /// greater by 1e-9 of their sum. A body that does not move may have no moments.

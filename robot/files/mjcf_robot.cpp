@@ -154,7 +154,7 @@ class MjcfRobotWriter {
       if (!is_locked(*joint)) continue;
       std::optional<Inertial> mass = std::exchange(inertials_[joint->child], std::nullopt);
       if (!mass) mass = taken_from_below(joint->child);
-      if (mass) return placed(rest_of(*joint), *mass);
+      if (mass) return Inertial{mass->mass, composed(rest_of(*joint), mass->origin), mass->tensor};
     }
     return std::nullopt;
   }

@@ -33,11 +33,12 @@ bool is_flat(const TriangleMesh& mesh) {
   return std::ranges::none_of(mesh.positions, [&](const Vec3& p) { return std::abs(dot(n, p - origin)) > most; });
 }
 
-/// With the coordinates that STL files keep.
-TriangleMesh in_float32(TriangleMesh mesh) {
-  for (Vec3& p : mesh.positions)
-    for (int axis = 0; axis < 3; ++axis) p[axis] = double(float(p[axis]));
-  return mesh;
+/// Whether MuJoCo reads an STL file of the mesh, and that keeps its coordinates.
+bool fits_stl(const TriangleMesh& mesh) {
+  const auto is_float = [](double x) { return double(float(x)) == x; };
+  return mesh.face_count() <= kMostMujocoStlFaces && std::ranges::all_of(mesh.positions, [&](const Vec3& p) {
+           return is_float(p.x) && is_float(p.y) && is_float(p.z);
+         });
 }
 
 /// Files of the meshes that a robot names, other than its hulls.
@@ -60,10 +61,10 @@ class MujocoMeshes {
 
  private:
   std::string add(const MeshFile& mesh) {
-    const auto triangles = std::make_shared<TriangleMesh>(in_float32(finite_part(mesh_triangles(mesh))));
+    const auto triangles = std::make_shared<TriangleMesh>(finite_part(mesh_triangles(mesh)));
     if (is_flat(*triangles)) throw InputError(Defect::InvalidOption, mesh.path.string() + ": it is flat");
-    const char* const suffix = triangles->face_count() <= kMostMujocoStlFaces ? ".stl" : ".obj";
-    const path file = path("meshes/visual") / (file_names_.of(mesh.path.stem().string()) + suffix);
+    const std::string name = file_names_.of(mesh.path.stem().string());
+    const path file = path("meshes/visual") / (name + (fits_stl(*triangles) ? ".stl" : ".obj"));
     files.push_back({file, [triangles](const path& target) { write_mesh(target, *triangles); }});
     return file.generic_string();
   }

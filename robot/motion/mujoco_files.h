@@ -18,8 +18,8 @@ struct MujocoFiles {
 };
 
 /// The robots of `written` as MJCF, ROBOT.xml beside each URDF file, with the same collision geometry. Other meshes
-/// that they name become STL files in meshes/visual, or OBJ files if they have more faces than MuJoCo reads of STL;
-/// flat ones are left out, because MuJoCo refuses them. Throws as mjcf_of.
+/// that they name become STL files in meshes/visual, or OBJ files where STL would round their coordinates or has too
+/// many faces for MuJoCo; flat ones are left out, because MuJoCo refuses them. Throws as mjcf_of.
 MujocoFiles mujoco_files(const RobotFile& file, const RobotFiles& written, std::span<const LinkPair> apart);
 
 }  // namespace prohull::robot

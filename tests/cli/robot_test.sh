@@ -150,6 +150,27 @@ says three_safe/robot.urdf "a package" 'package://three_safe/meshes/collision/ba
 says out "a package" "copies for the package: 2 files"
 expect 0 "a package is found" $prohull urdf three_safe/robot.urdf --check
 
+expect 0 "MJCF" $urdf -o mujoco $small --to mjcf
+for file in robot.urdf robot.xml robot_60.xml meshes/visual/knot.obj; do
+  is "MJCF: $file" test -s mujoco/$file
+done
+says mujoco/robot.xml "MJCF: pairs without contacts" '<exclude body1="base" body2="arm/&lt;1&gt;"/>'
+says mujoco/robot_60.xml "MJCF: its own hulls" 'file="meshes/collision_60/base.stl"'
+says out "MJCF: the summary" "robot.xml: the robot for MuJoCo"
+says out "MJCF: convex hulls" "MuJoCo collides with the convex hull of a mesh: it fills"
+expect 0 "MJCF has the robot and its hulls, exactly" $prohull urdf mujoco/robot.xml --check
+expect 0 "MJCF again" $urdf -o mujoco $small --to mjcf
+says out "MJCF again" "up to date"
+expect 0 "without MJCF" $urdf -o mujoco $small
+absent "mujoco/robot.xml mujoco/meshes/visual" "MJCF of an earlier run"
+expect 0 "MJCF, dry" $urdf --to mjcf --dry-run
+says out "MJCF, dry" "not in it: <unknown>, effort limits, velocity limits"
+expect 2 "MJCF of GLB files" $urdf -o none --to mjcf --format glb
+expect 2 "MJCF of a package" $urdf -o none --to mjcf --package none
+expect 2 "MJCF of more faces than MuJoCo reads" $urdf -o none --to mjcf --faces 200001
+expect 2 "another format" $urdf -o none --to sdf
+says err "another format" "mjcf"
+
 expect 0 "budgets to begin with" $urdf --write-budgets budgets.yaml --faces 150
 sed -i 's/"base": .*/"base": {faces: [80], gap: 2mm}/' budgets.yaml
 expect 0 "budgets" $urdf -o budgeted --budgets budgets.yaml --faces 150 --configurations 0 --no-pictures
