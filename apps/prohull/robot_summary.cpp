@@ -176,16 +176,19 @@ std::string motion_certificate_text(const std::filesystem::path& folder, const R
                      (folder / file).string());
 }
 
-/// MuJoCo collides with the convex hull of a mesh.
-std::string filled_text(std::span<const LinkHulls> hulls) {
-  const auto concave = std::ranges::count_if(hulls, [](const LinkHulls& link) {
-    return link.collision == Collision::Hull && std::ranges::any_of(link.hulls, [&](const LinkHull& hull) {
-             return hull.certified() && hull.volume < link.convex_volume;
-           });
-  });
+/// MuJoCo collides with the convex hull of a mesh. That of a hull has at least the volume of the link's own.
+std::string filled_text(std::span<const LinkHulls> links) {
+  std::size_t concave = 0;
+  double most = 1;
+  for (const LinkHulls& link : links)
+    for (const LinkHull& hull : link.hulls)
+      if (link.collision == Collision::Hull && hull.certified() && hull.volume < link.convex_volume)
+        ++concave, most = std::max(most, link.convex_volume / hull.volume);
   if (concave == 0) return "";
-  return fmt::format("  MuJoCo collides with the convex hull of a mesh: it fills {}; --collision convex keeps them\n",
-                     counted(std::size_t(concave), "hull that is concave", "hulls that are concave"));
+  return fmt::format(
+      "  MuJoCo collides with the convex hull of a mesh: {} filled, the worst to some {} times its volume; "
+      "--collision convex keeps them\n",
+      counted(concave, "concave hull is", "concave hulls are"), times_text(most));
 }
 
 std::string described(const Form& form) {

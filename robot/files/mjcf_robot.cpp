@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "prohull/error.h"
 #include "robot/files/inertial.h"
@@ -36,7 +37,7 @@ std::string named(const std::vector<std::string>& names) {
 
 /// Whether the joint holds its child where it is.
 bool is_locked(const Joint& joint) {
-  return joint.type == JointType::Fixed || (moves(joint) && joint.lower == joint.upper);
+  return joint.type == JointType::Fixed || (moves(joint) && joint.lower == joint.upper && std::isfinite(joint.lower));
 }
 
 /// Where the child is; of a joint that moves, in its position 0.
@@ -126,8 +127,8 @@ class MjcfRobotWriter {
     bodies_ += indent + "</body>\n";
   }
 
-  /// None if MuJoCo is to compute it from the geoms, or need not know it. It asks for the mass of all that moves, and
-  /// computes it of all else that has geoms.
+  /// None if MuJoCo is to compute the mass from the geoms, or if there are none and it needs no mass. MuJoCo asks for
+  /// the mass of all that moves, and would give one to all else that has geoms.
   std::optional<Inertial> mass_of(std::size_t link, bool moves, const std::string& geoms) {
     const std::string& name = robot_.links[link].name;
     std::optional<Inertial> mass = std::exchange(inertials_[link], std::nullopt);
@@ -255,7 +256,7 @@ class MjcfRobotWriter {
     try {
       return fmt::format(" type=\"mesh\" mesh=\"{}\"", xml_escaped(asset(mesh_(*mesh))));
     } catch (const InputError&) {
-      without_mesh_.push_back(link);
+      if (without_mesh_.empty() || without_mesh_.back() != link) without_mesh_.push_back(link);
       return "";
     }
   }

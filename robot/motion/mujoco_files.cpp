@@ -1,9 +1,13 @@
 #include "robot/motion/mujoco_files.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "prohull/detail/finite.h"
 #include "prohull/error.h"

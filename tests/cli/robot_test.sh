@@ -157,7 +157,7 @@ done
 says mujoco/robot.xml "MJCF: pairs without contacts" '<exclude body1="base" body2="arm/&lt;1&gt;"/>'
 says mujoco/robot_60.xml "MJCF: its own hulls" 'file="meshes/collision_60/base.stl"'
 says out "MJCF: the summary" "robot.xml: the robot for MuJoCo"
-says out "MJCF: convex hulls" "MuJoCo collides with the convex hull of a mesh: it fills"
+says out "MJCF: convex hulls" "MuJoCo collides with the convex hull of a mesh: "
 expect 0 "MJCF has the robot and its hulls, exactly" $prohull urdf mujoco/robot.xml --check
 expect 0 "MJCF again" $urdf -o mujoco $small --to mjcf
 says out "MJCF again" "up to date"
