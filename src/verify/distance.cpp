@@ -17,7 +17,10 @@ double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
 double distance(const Vec3& p, const Triangle& t) {
   const Vec3 n = cross(t.b - t.a, t.c - t.a);
   const auto is_left_of = [&](const Vec3& a, const Vec3& b) { return dot(cross(b - a, p - a), n) >= 0; };
-  if (squared_norm(n) > 0 && is_left_of(t.a, t.b) && is_left_of(t.b, t.c) && is_left_of(t.c, t.a))
+  // The normal of a thinner triangle is rounded by more than the triangle is wide.
+  constexpr double kThin = 0x1p-52;
+  if (squared_norm(n) > kThin * squared_norm(t.b - t.a) * squared_norm(t.c - t.a) && is_left_of(t.a, t.b) &&
+      is_left_of(t.b, t.c) && is_left_of(t.c, t.a))
     return std::abs(dot(p - t.a, n)) / norm(n);
   return std::min(
       {distance_to_segment(p, t.a, t.b), distance_to_segment(p, t.b, t.c), distance_to_segment(p, t.c, t.a)});

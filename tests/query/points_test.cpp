@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "effort.h"
+#include "geometry/closest_point.h"
 #include "geometry/winding_number.h"
 #include "meshes.h"
 #include "prohull/error.h"
@@ -15,6 +16,7 @@
 #include "query/brute_force.h"
 #include "query/exact_points.h"
 #include "random.h"
+#include "verify/distance.h"
 
 namespace prohull {
 namespace {
@@ -184,6 +186,25 @@ TEST(ClosestPoint, OfNeedlesAndFacesWithoutAreaIsWithinItsBounds) {
                           {-1, -1, -1 + 1e-12}},
                          {{0, 1, 2}, {0, 1, 3}, {4, 5, 6}, {4, 4, 5}, {7, 7, 7}, {7, 8, 0}, {6, 5, 4}});
   expect_bounds(mesh, some_points(mesh), 1e-6);
+}
+
+// Corners that coincide, and third corners that are rounded to a point of an edge.
+TEST(ClosestPoint, OfAFaceThatIsASegmentIsThatOfTheSegment) {
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  const auto any = [&] { return Vec3{coordinate(random), coordinate(random), coordinate(random)}; };
+  for (const double size : {1e-90, 1.0, 1e30, 1e99})
+    for (int round = 0; round < rounds(100); ++round) {
+      const Vec3 a = any() * size, b = any() * size, on_edge = a + (b - a) * std::abs(coordinate(random));
+      const Vec3 p = any() * (round % 2 == 0 ? 2 * size : 1e3 * size);
+      for (const Triangle& t : {Triangle{a, a, b}, Triangle{a, b, a}, Triangle{b, a, a}, Triangle{a, a, a},
+                                Triangle{on_edge, a, b}, Triangle{a, on_edge, b}, Triangle{a, b, on_edge}}) {
+        expect_bounds(make({t.a, t.b, t.c}, {{0, 1, 2}}), {p});
+        const double truth = std::sqrt(CGAL::to_double(squared_distance(p, t))), allowed = 1e-14 * norm(p);
+        ASSERT_NEAR(norm(p - closest_point(p, t)), truth, allowed);
+        ASSERT_NEAR(verify::distance(p, t), truth, allowed);
+      }
+    }
 }
 
 TEST(ClosestPoint, OfAPointOnAFeatureIsAtDistanceZero) {
