@@ -263,15 +263,24 @@ class GltfReader {
   }
 
   Affine local_place(const Json& node, std::string_view where) const {
-    if (const auto m = numbers<16>(node, "matrix", where))
+    if (const auto m = numbers<16>(node, "matrix", where)) {
+      for (const char* other : {"translation", "rotation", "scale"})
+        if (node.contains(other))
+          fail_in(where, fmt::format("it has a matrix and a {}; keep the matrix alone, or what it is made of", other));
+      if ((*m)[3] != 0 || (*m)[7] != 0 || (*m)[11] != 0 || (*m)[15] != 1)
+        fail_in(where, fmt::format("the last row of its matrix is {}, {}, {}, {}; it must be 0, 0, 0, 1", (*m)[3],
+                                   (*m)[7], (*m)[11], (*m)[15]));
       return {{(*m)[0], (*m)[1], (*m)[2]},
               {(*m)[4], (*m)[5], (*m)[6]},
               {(*m)[8], (*m)[9], (*m)[10]},
               {(*m)[12], (*m)[13], (*m)[14]}};
+    }
     const auto t = numbers<3>(node, "translation", where).value_or(std::array{0.0, 0.0, 0.0});
     const auto q = numbers<4>(node, "rotation", where).value_or(std::array{0.0, 0.0, 0.0, 1.0});
     const auto s = numbers<3>(node, "scale", where).value_or(std::array{1.0, 1.0, 1.0});
     const auto [x, y, z, w] = q;
+    if (q == std::array{0.0, 0.0, 0.0, 0.0})
+      fail_in(where, "its rotation is 0, 0, 0, 0, which is none; 0, 0, 0, 1 turns nothing");
     return {s[0] * Vec3{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
             s[1] * Vec3{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
             s[2] * Vec3{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)},

@@ -19,6 +19,15 @@ constexpr std::size_t size_of(NumberType type) {
 
 constexpr bool is_integer(NumberType type) { return type < NumberType::Float32; }
 
+/// Whether the value is in the range of the type; of floats every value is.
+constexpr bool holds(NumberType type, double value) {
+  if (!is_integer(type)) return true;
+  const bool is_signed = static_cast<std::uint8_t>(type) % 2 == 0;
+  double most = is_signed ? 0.5 : 1;
+  for (std::size_t byte = 0; byte < size_of(type); ++byte) most *= 256;
+  return (is_signed ? -most : 0) <= value && value < most;
+}
+
 /// Integers beyond 2^53 are rounded.
 inline double read_number(ByteCursor& cursor, NumberType type) {
   switch (type) {

@@ -22,6 +22,10 @@ class OffReader {
     builder_.reserve_triangles(std::min(faces, size_ / kShortestRecord));
     for (std::size_t i = 0; i < vertices; ++i) read_vertex(i, vertices);
     for (std::size_t i = 0; i < faces; ++i) read_face(i, faces);
+    if (scanner_.next_line())
+      scanner_.fail(fmt::format(
+          "more follows the last face of {}; the number of vertices or faces is wrong, or this line is too much",
+          faces));
     return builder_.finish();
   }
 

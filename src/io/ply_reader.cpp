@@ -28,8 +28,8 @@ struct PlyRecord {
 };
 
 // A body hands out the values of one record after the other, in order: begin(record), then for each property
-// number(type), or list_length(...) and as many integer(type), or skip(...), then end(). fits(...) bounds what is
-// reserved.
+// number(type), or list_length(...) and as many integer(type), or skip(...), then end(); and last finish(). fits(...)
+// bounds what is reserved.
 
 /// Each record stands on a line of its own.
 class AsciiBody {
@@ -49,14 +49,14 @@ class AsciiBody {
 
   // What other readers store for a property of type float, and so what a hull must enclose.
   double number(NumberType type) {
-    const double value = scanner_.number("a number");
+    const double value = checked(scanner_.number("a number"), type);
     return type == NumberType::Float32 ? nearest_float32(value) : value;
   }
-  std::int64_t integer(NumberType) { return scanner_.integer("an integer"); }
-  std::size_t list_length(NumberType, NumberType) {
+  std::int64_t integer(NumberType type) { return checked(scanner_.integer("an integer"), type); }
+  std::size_t list_length(NumberType type, NumberType) {
     const std::int64_t length = scanner_.integer("the length of a list");
     if (length < 0) scanner_.fail(fmt::format("a list has the length {}", length));
-    return static_cast<std::size_t>(length);
+    return static_cast<std::size_t>(checked(length, type));
   }
   void skip(std::size_t count, NumberType) {
     for (; count > 0; --count)
@@ -69,7 +69,25 @@ class AsciiBody {
   }
   Place place() const { return scanner_.place(); }
 
+  void finish() {
+    while (scanner_.next_line()) {
+      const std::string_view word = scanner_.word();
+      if (word != "comment" && !word.starts_with('#'))
+        scanner_.fail(
+            "more follows the last record that the header tells of; a count in the header is wrong, or this line is "
+            "too much");
+    }
+  }
+
  private:
+  template <class Number>
+  Number checked(Number value, NumberType type) const {
+    if (!holds(type, static_cast<double>(value)))
+      scanner_.fail(
+          fmt::format("{} is beyond the range of its type; give the property a larger type in the header", value));
+    return value;
+  }
+
   std::size_t size_;
   TextScanner scanner_;
   PlyRecord record_;
@@ -85,6 +103,7 @@ class BinaryBody {
 
   void begin(const PlyRecord& record) { record_ = record; }
   void end() {}
+  void finish() {}
 
   double number(NumberType type) {
     require(1, size_of(type));
@@ -146,6 +165,7 @@ class PlyReader {
         for_each_record(
             element, [&](const PlyProperty& property, std::size_t) { skip(property); }, [](Place) {});
     }
+    body_.finish();
     if (has_face_colors_) marks_->face_colors.resize(builder_.triangle_count());  // strips may follow
     return builder_.finish();
   }

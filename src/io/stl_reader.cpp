@@ -8,6 +8,7 @@
 #include "io/mesh_readers.h"
 #include "io/text_scanner.h"
 #include "io/vertex_welder.h"
+#include "prohull/detail/text.h"
 
 namespace prohull {
 namespace {
@@ -77,6 +78,10 @@ TriangleMesh read_binary(std::string_view content, const std::string& file, cons
     cursor.skip(sizeof(std::uint16_t));
     soup.add_triangle(corners, place);
   }
+  if (const std::size_t more = cursor.remaining() / kTriangleSize; more > 0)
+    fail(file, {Place::Unit::Byte, kHeaderSize - 4},
+         fmt::format("the count says {}, but the file holds {}; correct it, or export the mesh again",
+                     counted(count, "triangle"), count + more));
   return soup.finish();
 }
 

@@ -245,6 +245,20 @@ TEST(Gltf, ThatPointsElsewhereIsAnError) {
       "compression");
 }
 
+TEST(Gltf, WithAPlaceThatContradictsItselfIsAnError) {
+  const auto with = [](const char* place) {
+    Json json = tetrahedron_json();
+    json["nodes"][0].update(Json::parse(place));
+    return json;
+  };
+  expect_document_refused(with(R"({"matrix": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], "scale": [1,1,1]})"),
+                          "nodes 0: it has a matrix and a scale; keep the matrix alone, or what it is made of");
+  expect_document_refused(with(R"({"matrix": [1,0,0,0, 0,1,0,0, 0,0,1,0.5, 0,0,0,1]})"),
+                          "nodes 0: the last row of its matrix is 0, 0, 0.5, 1; it must be 0, 0, 0, 1");
+  expect_document_refused(with(R"({"rotation": [0,0,0,0]})"),
+                          "nodes 0: its rotation is 0, 0, 0, 0, which is none; 0, 0, 0, 1 turns nothing");
+}
+
 TEST(Gltf, OpensRegularFilesOnly) {
   const TemporaryFolder folder;
   Json json = tetrahedron_json();

@@ -26,7 +26,13 @@ TEST(Off, SkipsCommentsColoursAndNormals) {
   expect_one_triangle("STCNOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2 0.5\n");
 }
 
-TEST(Off, IgnoresWhatFollowsTheLastFace) { expect_one_triangle("OFF\n3 1 0\n" + kBody + "\n\n3 7 8 9\n"); }
+TEST(Off, RefusesMoreThanItsCounts) {
+  expect_one_triangle("OFF\n3 1 0\n" + kBody + "\n# the end\n\n");
+  expect_refused(
+      "OFF\n3 1 0\n" + kBody + "\n3 0 1 2\n", "a.off",
+      "a.off: line 8: more follows the last face of 1; the number of vertices or faces is wrong, or this line "
+      "is too much");
+}
 
 TEST(Off, RefusesAMissingOrUnsupportedKeyword) {
   expect_refused("3 1 0\n" + kBody, "a.off", "a.off: line 1: the file starts with '3'; expected OFF");

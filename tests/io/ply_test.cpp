@@ -72,7 +72,7 @@ TEST(Ply, KeepsTheBitsOfBigEndianDoubles) {
 }
 
 TEST(Ply, ReadsWindowsLinesCommentsAndTrailingData) {
-  std::string content = header("ascii", 3, 1) + kAsciiBody + "\n\nanything else";
+  std::string content = header("ascii", 3, 1) + kAsciiBody + "\n\ncomment the end\n";
   content.replace(content.find("element"), 0, "comment element face 7\nobj_info made by hand\n");
   expect_one_triangle(content);
   for (std::size_t i = 0; (i = content.find('\n', i)) != std::string::npos; i += 2) content.insert(i, 1, '\r');
@@ -135,10 +135,31 @@ TEST(Ply, RefusesCountsThatAnAsciiBodyDoesNotHave) {
   expect_refused(header("ascii", 4000000000, 1) + kAsciiBody, "a.ply",
                  "a.ply: line 13: vertex 4 of 4000000000 has more values than properties; or a count in the header is "
                  "wrong");
-  expect_refused(header("ascii", 3, 1) + "0 0 0\n1 0 0\n0 1 0\n4000000000 0 1 2\n", "a.ply",
-                 "a.ply: line 13: the line ends where an integer was expected");
+  expect_refused(
+      header("ascii", 3, 1) + "0 0 0\n1 0 0\n0 1 0\n4000000000 0 1 2\n", "a.ply",
+      "a.ply: line 13: 4000000000 is beyond the range of its type; give the property a larger type in the header");
   expect_refused(header("ascii", 3, 1) + "0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n", "a.ply",
                  "a.ply: line 13: a list has the length -3");
+}
+
+TEST(Ply, RefusesMoreRowsThanAnAsciiHeaderHas) {
+  const std::string message =
+      ": more follows the last record that the header tells of; a count in the header is wrong, or this line is too "
+      "much";
+  expect_refused(header("ascii", 3, 1) + kAsciiBody + "3 0 1 2\n", "a.ply", "a.ply: line 14" + message);
+  expect_refused(header("ascii", 3, 0) + kAsciiBody, "a.ply", "a.ply: line 13" + message);
+}
+
+TEST(Ply, RefusesNumbersBeyondTheirType) {
+  std::string content = header("ascii", 3, 1) + "0 0 0\n1 0 0\n0 1 300\n3 0 1 2\n";
+  content.replace(content.find("float z"), 7, "uchar z");
+  expect_refused(content, "a.ply",
+                 "a.ply: line 12: 300 is beyond the range of its type; give the property a larger type in the header");
+  content.replace(content.find("300"), 3, "255");
+  EXPECT_EQ(read_mesh(content, "a.ply").positions[VertexId(2)].z, 255);
+  content.replace(content.find("uchar z"), 7, "char z");
+  expect_refused(content, "a.ply",
+                 "a.ply: line 12: 255 is beyond the range of its type; give the property a larger type in the header");
 }
 
 TEST(Ply, RefusesCountsThatABinaryBodyDoesNotHave) {

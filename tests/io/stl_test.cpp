@@ -91,6 +91,15 @@ TEST(Stl, RefusesATruncatedBinaryFile) {
                  "starts with solid");
 }
 
+TEST(Stl, RefusesMoreTrianglesThanItsCount) {
+  const std::string wrong = "; correct it, or export the mesh again";
+  expect_refused(binary_stl("", 1, {kOne, kOne, kOne}), "a.stl",
+                 "a.stl: byte 80: the count says 1 triangle, but the file holds 3" + wrong);
+  expect_refused(binary_stl("", 0, {kOne}) + "end", "a.stl",
+                 "a.stl: byte 80: the count says 0 triangles, but the file holds 1" + wrong);
+  expect_one_triangle(binary_stl("", 1, {kOne}) + "less than a triangle");
+}
+
 TEST(Stl, RefusesATruncatedOrMalformedAsciiFile) {
   expect_refused("solid\n" + kFacet, "a.stl",
                  "a.stl: line 9: the file ends where facet or endsolid was expected; it is truncated");
