@@ -122,10 +122,9 @@ void bind_meshes(py::module_& module) {
       .def(
           "write", [](const TriangleMesh& mesh, const std::filesystem::path& path) { write_mesh(path, mesh); },
           Release())
-      .def(py::pickle([](const SharedMesh& mesh) { return py::make_tuple(vertices_of(mesh), faces_of(mesh)); },
-                      [](const py::tuple& parts) {
-                        return mesh_of(parts[0].cast<Array<double>>(), parts[1].cast<Array<std::int64_t>>());
-                      }));
+      .def("__reduce__", [](const SharedMesh& mesh) {
+        return py::make_tuple(py::type::of<TriangleMesh>(), py::make_tuple(vertices_of(mesh), faces_of(mesh)));
+      });
 
   py::class_<ProgressiveHull, SharedLevels>(module, "Levels")
       .def_property_readonly("is_inner", [](const ProgressiveHull& levels) { return levels.side() == HullSide::Inner; })
@@ -145,7 +144,10 @@ void bind_meshes(py::module_& module) {
       .def(
           "save", [](const ProgressiveHull& levels, const std::filesystem::path& path) { save_hull(path, levels); },
           Release())
-      .def(py::pickle(&parts_of, &levels_of_parts));
+      .def(py::init(&levels_of_parts))
+      .def("__reduce__", [](const SharedLevels& levels) {
+        return py::make_tuple(py::type::of<ProgressiveHull>(), py::make_tuple(parts_of(levels)));
+      });
 
   module.def("read", &read);
   module.def("stores_float32", [](const std::filesystem::path& path) { return stores_float32(mesh_format(path)); });

@@ -49,6 +49,18 @@ void bind_errors(pybind11::module_& module) {
   });
 }
 
+/// Of pickle's protocols 0 and 1, pybind11 ends the process for classes that do not say how they are pickled.
+void refuse_to_pickle_others(const pybind11::module_& module) {
+  const pybind11::handle bound(reinterpret_cast<PyObject*>(pybind11::detail::get_internals().default_metaclass));
+  for (const auto& [name, value] : pybind11::dict(module.attr("__dict__"))) {
+    if (!pybind11::isinstance(value, bound) || value.attr("__dict__").contains("__reduce__")) continue;
+    const std::string message = "cannot pickle '" + std::string(pybind11::str(name)) + "' object";
+    value.attr("__reduce__") = pybind11::cpp_function(
+        [message](const pybind11::handle&) -> pybind11::object { throw pybind11::type_error(message); },
+        pybind11::name("__reduce__"), pybind11::is_method(value));
+  }
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_prohull, module) {
@@ -67,4 +79,5 @@ PYBIND11_MODULE(_prohull, module) {
   prohull::python::bind_robots(module);
   prohull::python::bind_paths(module);
   prohull::python::bind_sweeps(module);
+  refuse_to_pickle_others(module);
 }

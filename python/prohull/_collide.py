@@ -1,6 +1,7 @@
 """Collisions and distances between two meshes in rigid poses."""
 
-from typing import NamedTuple, Optional, Union
+import os
+from typing import Any, NamedTuple, Optional, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -41,6 +42,8 @@ class Collider:
     threads: the largest number of threads; 0 means one for each core. The answers do not depend on it.
     progress: called as build() calls it, with the stage "collide".
 
+    A Collider may be pickled, as what it was made of; the copy builds its index anew.
+
     Answers are exact for the meshes whose vertices are R p + t, rounded to double precision. Raises InputError for
     matrices that are not rigid within 1e-6, and for meshes that are empty or not finite.
 
@@ -50,14 +53,22 @@ class Collider:
 
     def __init__(self, mesh: MeshLike) -> None:
         """Builds the index of a mesh, as verify() takes it."""
-        self._given, self._levels = mesh, levels_of(mesh)
-        if self._levels is None:
-            asked = mesh_of(mesh)._core
-            with naming(mesh):
-                self._core = _prohull.CollisionIndex(asked)
-        else:
-            self._core = _prohull.CollisionIndex(self._levels, False)
+        levels = levels_of(mesh)
+        self._build(mesh, mesh_of(mesh)._core if levels is None else None, levels)
+
+    def _build(self, given: Any, mesh: Optional[_prohull.Mesh], levels: Optional[_prohull.Levels]) -> None:
+        self._given, self._mesh, self._levels = given, mesh, levels
+        with naming(given):
+            self._core = (_prohull.CollisionIndex(mesh) if mesh is not None else
+                          _prohull.CollisionIndex(cast(_prohull.Levels, levels), False))
         self._hull: Optional[_prohull.CollisionIndex] = None  # of the levels; built when it is first asked
+
+    def __getstate__(self) -> tuple[Any, ...]:
+        name = os.fspath(self._given) if isinstance(self._given, (str, os.PathLike)) else None
+        return name, self._mesh, self._levels
+
+    def __setstate__(self, parts: tuple[Any, ...]) -> None:
+        self._build(*parts)
 
     def _index(self, conservative: bool) -> _prohull.CollisionIndex:
         if self._levels is None or not conservative:

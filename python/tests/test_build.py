@@ -321,6 +321,15 @@ def test_pickled_hulls_are_the_same(hull, pony):
         raise pickle.loads(pickle.dumps(prohull.InputError("hello")))
 
 
+@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
+def test_every_protocol_pickles_or_says_that_it_cannot(hull, protocol):
+    copy = pickle.loads(pickle.dumps(hull, protocol))
+    assert np.array_equal(copy.vertices, hull.vertices) and copy.levels == hull.levels
+    index = hull._new_index("bvh")
+    with pytest.raises(TypeError, match="cannot pickle 'Index' object"):
+        pickle.dumps(index, protocol)
+
+
 def test_threads_do_not_change_hulls(pony):
     one, two = (prohull.build(pony, target_faces=400, threads=threads) for threads in (1, 2))
     assert np.array_equal(one.vertices, two.vertices) and np.array_equal(one.faces, two.faces)

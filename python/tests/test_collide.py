@@ -1,3 +1,5 @@
+import pickle
+
 import numpy as np
 import prohull
 import pytest
@@ -21,6 +23,19 @@ def test_one_pose_gives_one_answer(box, cube):
     assert box.collides(cube, moved(3, 0, 0)) is False, "vertices and faces"
     assert box.collides(prohull.Mesh(cube[0] * 0.1, cube[1])) is True, "inside"
     assert box.collides(box, moved(3, 0, 0), own_poses=moved(1.5, 0, 0)) is True
+
+
+@pytest.mark.parametrize("protocol", [0, 1, 5])
+def test_colliders_are_pickled(box, tmp_path, protocol):
+    assert pickle.loads(pickle.dumps(box, protocol)).distances(box, moved(3, 0, 0)).upper[0] == pytest.approx(1)
+    prohull.sample("box", 12).save(tmp_path / "box.ply")
+    of_file = pickle.dumps(prohull.Collider(tmp_path / "box.ply"), protocol)
+    (tmp_path / "box.ply").unlink()
+    assert pickle.loads(of_file).collides(box) is True
+    levels = prohull.build(prohull.sample("box", 100), 12, levels=True)
+    levels.save(tmp_path / "box.phull")
+    copy = pickle.loads(pickle.dumps(prohull.Collider(tmp_path / "box.phull"), protocol))
+    assert copy.collides(box, conservative=True) is True
 
 
 def test_many_poses_give_an_array(box):
