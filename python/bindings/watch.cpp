@@ -10,7 +10,8 @@ namespace prohull::python {
 namespace {
 
 void tell(const pybind11::object& progress, const std::string& stage, double fraction) {
-  if (progress.is_none() || !progress(stage, fraction).is(pybind11::bool_(false))) return;
+  pybind11::detail::make_caster<bool> goes_on;  // of bools, and numpy's, alone
+  if (progress.is_none() || !goes_on.load(progress(stage, fraction), false) || goes_on) return;
   PyErr_SetString(PyExc_KeyboardInterrupt, "progress returned False");
   throw pybind11::error_already_set();
 }

@@ -44,7 +44,7 @@ class Watch {
 /// work(watch), on a thread of its own and without the GIL. The calling thread looks for Ctrl-C some 20 times a second
 /// and tells `progress` how it goes, so that Python runs on no other thread. If either throws, the work is stopped and
 /// waited for, and the exception goes on: what progress(stage, fraction) throws, and KeyboardInterrupt where it returns
-/// False.
+/// False, or numpy's.
 void watch_over(const pybind11::object& progress, const std::function<void(Watch&)>& work);
 
 /// The same, for what the work returns.

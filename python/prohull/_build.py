@@ -122,8 +122,8 @@ def build(mesh: Any, faces: Any = None, target_faces: Any = None, *,  # type: ig
     max_overhang: how far a new vertex may lie outside of the box of the mesh, along each axis, relative to the diagonal
         of the box; at least 0.
     progress: a function that is called with the stage and a fraction in [0, 1], some 20 times a second, on the calling
-        thread. The last call is ("done", 1.0). If it returns False, the build stops with KeyboardInterrupt, as for
-        Ctrl-C. What it raises stops the build and reaches the caller.
+        thread. The last call is ("done", 1.0). If it returns False (or numpy's; not None or 0), the build stops with
+        KeyboardInterrupt, as for Ctrl-C. What it raises stops the build and reaches the caller.
 
     Raises InputError, a ValueError, for a file that cannot be read, a mesh without a finite triangle, a mesh that is
     not closed where it has to be, and arguments that are not as above.

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 Path = Union[str, "os.PathLike[str]"]
 #: A distance in the mesh's unit; or as in "0.5%", of the diagonal of the mesh's bounding box.
 Gap = Union[float, str]
-#: A function that is called with the stage and a fraction in [0, 1]. If it returns False, what runs is stopped.
+#: A function that is called with the stage and a fraction in [0, 1]. False, or numpy's, stops what runs; None and 0 do not.
 Progress = Callable[[str, float], Optional[bool]]
 
 # The names that the library knows; a test compares them.

@@ -626,7 +626,8 @@ class _Told:
 
     def add(self, done: int, failed: int = 0) -> None:
         self._done, self._failed = self._done + done, self._failed + failed
-        if self._progress and self._progress(self._done, self._total, self._failed) is False:
+        goes_on = self._progress(self._done, self._total, self._failed) if self._progress else None
+        if isinstance(goes_on, (bool, np.bool_)) and not goes_on:
             raise KeyboardInterrupt("progress returned False")
 
 

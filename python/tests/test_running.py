@@ -44,6 +44,9 @@ def test_all_that_takes_long_tells_progress(pony, random, work, stages):
     assert {thread for _, _, thread in told} == {threading.get_ident()}
     with pytest.raises(KeyboardInterrupt, match="progress returned False"):
         work(pony, rays, lambda stage, fraction: False)
+    with pytest.raises(KeyboardInterrupt, match="progress returned False"):
+        work(pony, rays, lambda stage, fraction: np.float64(fraction) < 0)
+    work(pony, rays, lambda stage, fraction: 0)
 
 
 def test_progress_can_stop_a_build(pony):
