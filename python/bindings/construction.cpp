@@ -48,9 +48,8 @@ class Judges {
       append(covered, solid.doors);
       append(all, solid.doors);
       covered_.push_back(is_outer ? shared(std::move(covered)) : nullptr);
-      measured_.push_back(!options.bounds.any()          ? nullptr
-                          : solid.source == Source::Mesh ? closed
-                                                         : shared(std::move(all)));
+      measured_.push_back(all == *given_ ? given_ : shared(std::move(all)));
+      bounded_.push_back(solid.source == Source::Mesh ? closed : measured_.back());
     }
   }
 
@@ -60,8 +59,10 @@ class Judges {
   SharedMesh original() const { return original_; }
   /// The triangles that it has to cover beside.
   SharedMesh covered(const EnclosingHull& hull) const { return covered_[hull.solid]; }
-  /// What its distance is bounded from.
+  /// What its distance is told from: triangles_to_cover().
   SharedMesh measured(const EnclosingHull& hull) const { return measured_[hull.solid]; }
+  /// What bounds that are asked for are about.
+  SharedMesh bounded(const EnclosingHull& hull) const { return bounded_[hull.solid]; }
 
  private:
   static SharedMesh shared(TriangleMesh mesh) {
@@ -69,7 +70,7 @@ class Judges {
   }
 
   SharedMesh given_, original_;
-  std::vector<SharedMesh> covered_, measured_;  ///< by solid
+  std::vector<SharedMesh> covered_, measured_, bounded_;  ///< by solid
 };
 
 py::dict facts_of(EnclosingHull hull, const Judges& judges, const EnclosingHulls& made,
@@ -79,9 +80,10 @@ py::dict facts_of(EnclosingHull hull, const Judges& judges, const EnclosingHulls
   facts["given"] = judges.given();
   facts["original"] = judges.original();
   facts["covered"] = judges.covered(hull);
+  facts["measured"] = judges.measured(hull);
   facts["volume_inside"] = std::isnan(hull.void_ratio) ? 0 : made.volume;
   if (options.bounds.any())
-    facts["bounds"] = py::make_tuple(judges.measured(hull), made.volume > 0 ? made.volume : solid.volume,
+    facts["bounds"] = py::make_tuple(judges.bounded(hull), made.volume > 0 ? made.volume : solid.volume,
                                      options.bounds.max_distance, options.bounds.max_void_ratio);
   facts["replay_suffices"] =
       solid.source == Source::Mesh && solid.self_intersections == 0 && made.input.dropped.face_count() == 0;

@@ -50,6 +50,7 @@ class Hull(Mesh):
     _given: _prohull.Mesh  # the finite triangles that the proof is about
     _original: Mesh
     _covered: Optional[_prohull.Mesh]  # triangles that the hull has to cover beside enclosing its original
+    _measured: _prohull.Mesh  # that distance_bound is about
     _bounds: tuple[Any, ...]  # mesh and volume that they are about, max_distance, max_void_ratio
     _gap_asked: float
     _mirror: Optional[Axis] = None  # that build() was asked for
@@ -65,7 +66,7 @@ class Hull(Mesh):
         levels = facts.pop("levels")
         original = Mesh._of(facts.pop("original"), levels if facts["source"] == "mesh" else None)
         private = dict(_levels=levels, _given=facts.pop("given", original._core), _original=original,
-                       _covered=facts.pop("covered", None),
+                       _covered=facts.pop("covered", None), _measured=facts.pop("measured", original._core),
                        _bounds=facts.pop("bounds", ()), _gap_asked=facts.pop("gap_asked", 0.0),
                        _mirror=facts.pop("mirror", None), _open_shells=facts.pop("open_shells", "keep"),
                        _replay_suffices=facts.pop("replay_suffices"),
@@ -204,13 +205,13 @@ class Hull(Mesh):
 
     @property
     def distance_bound(self) -> float:
-        """No point of the hull is farther than this from `original`, in the mesh's unit: proven. What closes openings
-        of the mesh belongs to `original`.
+        """No point of the hull is farther than this from the finite triangles of the mesh and from what closes its
+        openings, in the mesh's unit: proven. Of a hull that was loaded, the mesh is the finest level.
 
         At most 1 % more than the true distance, unless finding it takes too long. Computed when it is first asked for.
         """
         if self._distance is None:
-            self._distance = _prohull.distance(self._core, self._original._core, 0.01, None)[1]
+            self._distance = _prohull.distance(self._core, self._measured, 0.01, None)[1]
         return self._distance
 
     @property

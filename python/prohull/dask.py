@@ -207,7 +207,7 @@ def build_partitioned(client: "distributed.Client", mesh: MeshLike, target_faces
     proof = _prohull.proof_of(hull._core, given._core, given._core, None, side)
     told.add(1)
     return hull._as(hull._core, certified=bool(proof), proof=proof, repairs=[], build_seconds=built - start,
-                    verify_seconds=time.perf_counter() - built, _given=given._core, _original=given, _levels=None,
+                    verify_seconds=time.perf_counter() - built, _given=given._core, _original=given, _measured=given._core, _levels=None,
                     _covered=None, _volume_inside=None, _replay_suffices=False)
 
 

@@ -330,6 +330,14 @@ def test_every_protocol_pickles_or_says_that_it_cannot(hull, protocol):
         pickle.dumps(index, protocol)
 
 
+def test_distances_are_told_from_faces_without_area_too(cube):
+    vertices = np.vstack([cube[0], [[3, 0, 0], [9, 0, 0]]])
+    mesh = prohull.Mesh(vertices, np.vstack([cube[1], [[8, 8, 9]]]))
+    for bounds in ({}, dict(max_distance=2)):
+        hull = prohull.build(mesh, 100, **bounds)
+        assert hull.distance_bound == prohull.distance_bounds(hull, mesh)[1]
+
+
 def test_threads_do_not_change_hulls(pony):
     one, two = (prohull.build(pony, target_faces=400, threads=threads) for threads in (1, 2))
     assert np.array_equal(one.vertices, two.vertices) and np.array_equal(one.faces, two.faces)
