@@ -78,6 +78,8 @@ def not_negative(name: str, value: Any, most: float = sys.float_info.max) -> flo
 def rows(name: str, values: ArrayLike, *shapes: tuple[int, ...]) -> NDArray[np.float64]:
     """A C-contiguous float64 array whose first axis counts rows, each of one of `shapes`; copied only if needed."""
     array = _numbers(name, values)
+    if array.shape == (0,):  # an empty list has no rows, of whatever shape
+        array = array.reshape(0, *shapes[0])
     if array.shape[1:] not in shapes or array.ndim == 0:
         expected = " or ".join(str(("n", *shape)).replace("'", "") for shape in shapes)
         raise InputError(f"{name}: an array of shape {array.shape}; expected {expected}")
@@ -111,7 +113,7 @@ def indices(name: str, values: ArrayLike) -> NDArray[np.int64]:
 def rays(origins: ArrayLike, directions: ArrayLike) -> NDArray[np.float64]:
     """Rows of an origin and a direction, shape (n, 6); a single one, of shape (3,), is repeated for all others."""
     starts, ways = points(origins, "origins"), points(directions, "directions")
-    counts = {len(made) for given, made in ((origins, starts), (directions, ways)) if np.ndim(given) == 2} or {1}
+    counts = {len(made) for given, made in ((origins, starts), (directions, ways)) if np.shape(given) != (3,)} or {1}
     if len(counts) > 1:
         raise InputError(f"origins of shape {starts.shape} and directions of shape {ways.shape}: "
                          "expected as many of the ones as of the others")

@@ -1,6 +1,7 @@
 """Meshes and hulls from files, from arrays and from other libraries."""
 
 import contextlib
+import numbers
 import os
 import pathlib
 import tempfile
@@ -77,6 +78,8 @@ def read(path: Path, *, scale: float = 1.0) -> Mesh:
     """
     if _prohull.is_hull_file(_arrays.path(path)):
         raise InputError(f"{os.fspath(path)}: this file holds the levels of a hull; prohull.load reads it")
+    if not isinstance(scale, numbers.Real):
+        raise InputError(f"scale={scale!r}: expected a number greater than 0")
     return Mesh._of(_prohull.read(path, False, float(scale)))
 
 

@@ -318,6 +318,8 @@ class Mesh(Shown):
         return ClosestPoints(*self._index(engine).signed_distances(_arrays.points(points), threads, progress))
 
     def _index(self, engine: Engine) -> _prohull.Index:
+        if not isinstance(engine, (str, Refinement, TwoHulls)):
+            raise InputError(f"engine={engine!r}: expected the name of an engine, a Refinement or TwoHulls")
         if engine not in self._indices:
             self._indices[engine] = self._new_index(engine)
         return self._indices[engine]

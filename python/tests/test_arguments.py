@@ -77,6 +77,7 @@ def test_empty_and_infinite_meshes_are_refused(cube):
     (dict(origins=[0, 0, 9], directions=[[0, 0, -1], [0, 0, 0]]), "query 1: the ray's direction is zero; leave it out"),
     (dict(segments=[[[0, 0, 0], [0, 0, 0]]]), "query 0: the segment's ends are equal; leave it out"),
     (dict(segments=np.zeros((1, 6)), engine="magic"), "engine='magic': expected one of auto, bvh"),
+    (dict(segments=np.zeros((1, 6)), engine=["bvh"]), r"engine=\['bvh'\]: expected the name of an engine"),
 ])
 def test_wrong_queries_are_named(cube, arguments, message):
     for ask in (prohull.Mesh(*cube).first_hit, prohull.Mesh(*cube).any_hit, prohull.Mesh(*cube).all_hits):
@@ -90,6 +91,15 @@ def test_a_file_is_read_at_a_scale(tmp_path):
     np.testing.assert_array_equal(prohull.read(tmp_path / "box.ply", scale=0.5).vertices, 0.5 * mesh.vertices)
     with pytest.raises(prohull.InputError, match="greater than 0"):
         prohull.read(tmp_path / "box.ply", scale=0)
+    with pytest.raises(prohull.InputError, match="scale='x': expected a number greater than 0"):
+        prohull.read(tmp_path / "box.ply", scale="x")
+
+
+def test_an_empty_list_has_no_rows(cube):
+    mesh = prohull.Mesh(*cube)
+    assert mesh.contains([]).shape == (0,) and len(mesh.closest([]).face) == 0
+    assert mesh.any_hit(segments=[]).shape == (0,) and mesh.any_hit([], [0, 0, 1]).shape == (0,)
+    assert mesh.all_hits(segments=[]).offsets.tolist() == [0]
 
 
 def test_a_report_lists_openings(cube):
