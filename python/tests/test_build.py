@@ -336,6 +336,8 @@ def test_distances_are_told_from_faces_without_area_too(cube):
     for bounds in ({}, dict(max_distance=2)):
         hull = prohull.build(mesh, 100, **bounds)
         assert hull.distance_bound == prohull.distance_bounds(hull, mesh)[1]
+    balls = prohull.spheres(mesh, 12)
+    assert balls.verdict.distance_to_triangles[1] < 2 and len(balls.balls) > 4
 
 
 def test_threads_do_not_change_hulls(pony):

@@ -233,8 +233,8 @@ class Covering {
   }
 
   /// Collapses leave all components of a mesh, so that a hull of few faces around them is large where they overlap. A
-  /// hull of a wrap has one, but no sharp edges. Both are searched, if either is coarser than the mesh, and the first
-  /// cover leaves more than little void.
+  /// hull of a wrap has one, and holds what has no volume, but no sharp edges. Both are searched, if either is coarser
+  /// than the mesh, and the first cover leaves more than little void.
   ConvexCover cover_of_closed_mesh() {
     constexpr std::size_t kFewest = 4;  // faces of a component
     const TriangleMesh& mesh = prepared_.closed->mesh;
@@ -242,12 +242,21 @@ class Covering {
     std::optional<ConvexCover> cover;
     if (kFewest * components <= kSearchFaces) cover = best_cover(measurable(of_closed_mesh(mesh)));
     const bool is_enough = cover && cover->verdict.certified && cover->void_ratio < little_void();
-    if (components > 1 && !is_enough) {
-      const double spacing = bounding_box(mesh).diagonal() / kWrapNodes;
-      ConvexCover joined = best_cover(measurable(of_closed_mesh(wrap_around(mesh, spacing, options_.progress).mesh)));
+    if ((components > 1 || dropped_faces_stick_out()) && !is_enough) {
+      TriangleMesh all = mesh;
+      append(all, prepared_.dropped);
+      const double spacing = bounding_box(all).diagonal() / kWrapNodes;
+      ConvexCover joined = best_cover(measurable(of_closed_mesh(wrap_around(all, spacing, options_.progress).mesh)));
       if (!cover || is_better(joined, *cover)) cover = std::move(joined);
     }
     return std::move(*cover);
+  }
+
+  /// Of the convex hull of the solid, in which a search of the solid would leave them no piece of their own.
+  bool dropped_faces_stick_out() const {
+    constexpr double kSame = 1 - 1e-6;  // but for rounding
+    return prepared_.dropped.face_count() > 0 &&
+           signed_volume(convex_hull(prepared_.closed->mesh)) < kSame * signed_volume(hull_);
   }
 
   /// With bounds, a search that leaves more may need fewer pieces for them.

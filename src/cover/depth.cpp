@@ -88,6 +88,7 @@ double Depth::most_at(const Vec3& p, std::span<const Vec3> feet) const {
 std::optional<Place> Depth::medial_place(const Vec3& p, double tolerance) const {
   MeshQuery& query = surface_.local();
   const ClosestPoint foot = *query.closest_point(p);
+  if (foot.lower > slack_ + tolerance && !is_inside(p)) return std::nullopt;
   const Vec3 normal = normal_of(faces_.triangle(foot.face), unit_), touched = foot.position;
   if (normal == Vec3{}) return std::nullopt;
   const auto across_solid = query.first_hit(Ray{touched - normal * (tolerance / 16), -normal * unit_});

@@ -36,7 +36,7 @@ class Depth {
   double most_at(const Vec3& p, std::span<const Vec3> feet) const;
 
   /// A place in the solid whose ball of the solid's depth touches the surface near p, but for `tolerance`: one near the
-  /// medial axis. Nothing if the solid has no thickness there.
+  /// medial axis. Nothing if the solid has no thickness there, or is elsewhere.
   std::optional<Place> medial_place(const Vec3& p, double tolerance) const;
 
  private:

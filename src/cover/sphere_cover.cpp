@@ -87,6 +87,7 @@ class SphereCoverer {
     TriangleMesh sheets;
     if (input_.closed) {
       solid_ = input_.closed->mesh, sheets = input_.dropped;
+      append(sheets, input_.caps);  // such as the other side of a loose triangle, whose solid has no surface
       const InsideVolume inside = volume_inside(input_, options_.progress);
       made_.original_volume = inside.volume, made_.is_estimated = inside.is_estimated;
       cover::add_note_of_cavities(inside.volume, cover::fillable_volume(input_, inside, options_.progress),
@@ -253,7 +254,7 @@ class SphereCoverer {
 
   void measure(SphereCover& cover) const {
     DistanceBounds reach = reach_of(cover.balls), from_triangles = reach;
-    if (cover.is_of_wrap || cover.verdict.cap_faces > 0)
+    if (cover.is_of_wrap || cover.verdict.cap_faces > 0 || input_.dropped.face_count() > 0)
       from_triangles = union_reach(cover.balls, input_.original, {.progress = options_.progress});
     reach.upper = std::min(reach.upper, from_triangles.upper);  // the solid has the triangles
     cover.verdict.distance_to_triangles = from_triangles, cover.verdict.distance_to_solid = reach;

@@ -58,6 +58,16 @@ TriangleMesh two_boxes_apart() {
 
 TriangleMesh small_torus() { return meshes::torus(effort(16u, 9u), effort(8u, 5u)); }
 
+// The segment has no volume, and cuts are judged by volumes.
+TEST(ConvexCover, OfASolidAndAFaceWithoutAreaBesideItHasAPieceForEach) {
+  TriangleMesh mesh = meshes::sphere(1);
+  append(mesh, meshes::make({{3, 0, 0}, {13, 0, 0}}, {{0, 0, 1}}));
+  const ConvexCover cover = convex_cover(mesh, {.max_pieces = 4});
+  EXPECT_TRUE(cover.verdict.certified);
+  EXPECT_GT(cover.pieces.size(), 1u);
+  EXPECT_LT(cover.void_ratio, 0.5);
+}
+
 TEST(ConvexCover, FillsCavitiesAndTellsTheirVolume) {
   const ConvexCover cover = convex_cover(hollow_cube(), {.max_pieces = 3});
   EXPECT_TRUE(cover.verdict.certified && cover.verdict.encloses_solid == Answer::Yes);

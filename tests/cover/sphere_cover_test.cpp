@@ -261,6 +261,19 @@ TEST(SphereCover, CoversDirtyTriangles) {
   }
 }
 
+// A loose triangle, thin or without an area, gets spheres of its own.
+TEST(SphereCover, CoversATriangleBesideASolidByManyBalls) {
+  for (const double width : {0.0, 1e-3}) {
+    TriangleMesh mesh = meshes::sphere(1);
+    append(mesh, meshes::make({{3, 0, 0}, {3, 0, width}, {13, 0, 0}}, {{0, 1, 2}}));
+    const SphereCover cover = sphere_cover(mesh, {.max_balls = 16});
+    EXPECT_TRUE(cover.verdict.certified);
+    EXPECT_GT(cover.balls.size(), 8u);
+    EXPECT_LT(cover.verdict.distance_to_triangles->upper, 1);
+    EXPECT_LT(cover.volume, 3 * signed_volume(meshes::sphere(1)));
+  }
+}
+
 TEST(SphereCover, RefusesWhatCannotBeCovered) {
   const TriangleMesh box = meshes::box({0, 0, 0}, {1, 1, 1});
   EXPECT_THROW(sphere_cover({}), InputError);
