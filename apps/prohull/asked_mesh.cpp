@@ -41,9 +41,9 @@ void AskedMesh::close() {
   });
 }
 
-InsideOut AskedMesh::inside_out() const {
-  const auto* const mesh = std::get_if<TriangleMesh>(&mesh_or_hull_);
-  return naming(path_, [&] { return mesh && is_closed(*mesh) ? inside_out_parts(*mesh) : InsideOut{}; });
+SolidNotes AskedMesh::turn_outwards() {
+  auto* const mesh = std::get_if<TriangleMesh>(&mesh_or_hull_);
+  return naming(path_, [&] { return mesh && is_closed(*mesh) ? SolidNotes::turning(*mesh, path_) : SolidNotes{}; });
 }
 
 QueryIndex AskedMesh::index(const std::function<QueryIndex(MeshOrHull)>& make) {

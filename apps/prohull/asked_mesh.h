@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "inputs.h"
-#include "prohull/detail/inside_out.h"
 #include "prohull/mesh_query.h"
+#include "solid_notes.h"
 
 namespace prohull::cli {
 
@@ -23,12 +23,11 @@ class AskedMesh {
 
   std::size_t face_count() const { return faces_; }
   Box box() const;
-  /// The components that are inside out; none if the mesh is not closed. It must be asked before the index is made.
-  InsideOut inside_out() const;
-
   /// A mesh that is not closed becomes the solid that `prohull repair` makes of it, unless that is a wrap: that would
   /// be another solid.
   void close();
+  /// A closed mesh as outward_solid makes it. Before the index is made.
+  SolidNotes turn_outwards();
 
   /// The mesh or hull goes into the index. What `make` throws then names the file.
   QueryIndex index(const std::function<QueryIndex(MeshOrHull)>& make);

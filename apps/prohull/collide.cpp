@@ -4,10 +4,10 @@
 
 #include "command.h"
 #include "prohull/detail/collision_levels.h"
-#include "prohull/detail/inside_out.h"
 #include "prohull/detail/query_io.h"
 #include "prohull/detail/summary.h"
 #include "prohull/error.h"
+#include "solid_notes.h"
 
 namespace prohull::cli {
 namespace {
@@ -41,27 +41,25 @@ std::vector<Pose> poses_of(const CollideOptions& options) {
 struct Body {
   CollisionIndex index;
   FinestLevel finest_level;
-  InsideOut inside_out = {};  ///< if it is closed: nothing is inside of these components
+  SolidNotes notes = {};
 };
 
 Body read_body(const CollideOptions& options, const std::filesystem::path& path) {
-  const MeshOrHull read = read_mesh_or_hull(path, options.input);
+  MeshOrHull read = read_mesh_or_hull(path, options.input);
   stop_if_interrupted();
   return naming(path, [&]() -> Body {
     if (const auto* const levels = std::get_if<ProgressiveHull>(&read))
       return {collision_index(*levels, options.conservative), levels->finest_level()};
-    const auto& mesh = std::get<TriangleMesh>(read);
-    CollisionIndex index(mesh);
-    const bool closed = is_closed(mesh);
-    const InsideOut inside_out = closed ? inside_out_parts(mesh) : InsideOut{};
-    if (options.conservative && inside_out.parts > 0)
-      throw InputError(Defect::NoVolume, described(inside_out, "the mesh") +
-                                             " and encloses nothing, which --conservative could tell of; turn it");
-    if (options.conservative && !closed)
+    auto& mesh = std::get<TriangleMesh>(read);
+    const CollisionIndex index(mesh);
+    const SolidNotes notes = is_closed(mesh) ? SolidNotes::turning(mesh, path) : SolidNotes::not_closed(path);
+    if (options.conservative && !notes.hollow.empty())
+      throw InputError(Defect::NoVolume, notes.hollow + ", and --conservative needs a hull that encloses something");
+    if (options.conservative && !notes.open.empty())
       throw InputError(Defect::OpenEdge,
                        "it is not closed, so that it encloses nothing, which --conservative could tell of; `prohull "
                        "repair` closes it");
-    return {std::move(index), FinestLevel::Input, inside_out};
+    return {notes.turned.empty() ? index : CollisionIndex(mesh), FinestLevel::Input, notes};
   });
 }
 
@@ -123,12 +121,7 @@ void print_summary(const CollideOptions& options, const Answers& answers) {
 }
 
 void print_notes(const Body& body, const std::filesystem::path& path) {
-  if (!body.index.is_solid() && body.inside_out.parts == 0)
-    say("  {} is not closed: only its faces count, not what lies inside (`prohull repair` closes it)\n",
-        input_name(path));
-  if (body.inside_out.parts > 0)
-    say("  {}: only its faces count, because nothing is inside of it ({})\n",
-        described(body.inside_out, input_name(path)), remedy(body.inside_out));
+  body.notes.say_them();
   if (const std::string finest = described_finest_level(body.finest_level); !finest.empty())
     say("  {} stands for {}: the finest level of the file is not the input itself\n", input_name(path), finest);
 }
@@ -137,14 +130,17 @@ nlohmann::json facts(const Body& body, const std::filesystem::path& path) {
   return {{"path", path.string()},
           {"faces", body.index.face_count()},
           {"solid", body.index.is_solid()},
-          {"inside_out", body.inside_out.parts > 0},
+          {"inside_out", body.notes.is_inside_out()},
           {"finest_level", name_of(finest_level_names(), body.finest_level)}};
 }
 
 nlohmann::json report_of(const CollideOptions& options, const Body& a, const Body& b, const Answers& answers,
                          double seconds) {
+  std::vector<std::string> notes = a.notes.all();
+  if (options.b != options.a) std::ranges::move(b.notes.all(), std::back_inserter(notes));
   nlohmann::json json = {{"a", facts(a, options.a)},
                          {"b", facts(b, options.b)},
+                         {"notes", notes},
                          {"conservative", options.conservative},
                          {"poses", answers.collide.size()},
                          {"colliding", std::ranges::count(answers.collide, true)},
@@ -192,7 +188,10 @@ void add_collide(CLI::App& app, Run& run) {
   CLI::App& command = *app.add_subcommand(
       "collide",
       "Decides exactly whether two meshes have a point in common, and exits with code 1 if they do. Touching counts, "
-      "and so does a closed mesh that is wholly inside of another one. B may be moved and turned, also to many poses.");
+      "and so does a closed mesh that is wholly inside of another one. A closed mesh that is inside out is turned. Of "
+      "a "
+      "mesh that is not closed only the faces count, which is said even with --quiet. B may be moved and turned, also "
+      "to many poses.");
   add_value(command, "a", options->a, "A", std::string("Mesh or .phull file. ") + kMeshFiles)->required();
   add_value(command, "b", options->b, "B", "Mesh or .phull file, which the poses move.")->required();
   add_format_option(command, options->input);

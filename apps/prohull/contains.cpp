@@ -31,7 +31,8 @@ void add_contains(CLI::App& app, Run& run) {
   CLI::App& command = *app.add_subcommand(
       "contains",
       "Decides which points are inside of a mesh, exactly. A point is inside if the mesh winds around it at least "
-      "once, so cavities are outside. Of a mesh that is not closed, the solid is asked that `prohull repair` makes of "
+      "once, so cavities are outside. A closed mesh that is inside out is turned. Of a mesh that is not closed, the "
+      "solid is asked that `prohull repair` makes of "
       "it; one that repairs do not close is refused.");
   add_point_options(command, *options, inside_outputs());
   add_examples(command,

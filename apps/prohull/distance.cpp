@@ -52,7 +52,8 @@ void add_distance(CLI::App& app, Run& run) {
       "distance", "Finds how far points are from a mesh, with proven bounds, and the closest point of the mesh.");
   add_point_options(command, *options, distance_outputs());
   command.add_flag("--signed", options->is_about_inside,
-                   "Make the distances of points that are inside negative. The mesh must be closed.");
+                   "Make the distances of points that are inside negative. The mesh must be closed; what is inside out "
+                   "is turned.");
   add_examples(command,
                {"prohull distance horse.ply --random 1e5", "prohull distance scan.stl --points p.npy -o distances.npz",
                 "prohull distance part.stl --points p.csv -o distances.csv --signed"});

@@ -61,7 +61,7 @@ int run_points(const PointOptions& options, const OutputKind& answers, const Ask
   stop_if_interrupted();
   const Stopwatch indexing;
   if (options.closes) asked.close();
-  const InsideOut inside_out = options.is_about_inside ? asked.inside_out() : InsideOut{};
+  const SolidNotes notes = options.is_about_inside ? asked.turn_outwards() : SolidNotes{};
   const QueryIndex index = asked.index(options.engine);
   seconds.index = indexing.seconds();
   stop_if_interrupted();
@@ -82,14 +82,16 @@ int run_points(const PointOptions& options, const OutputKind& answers, const Ask
                            {"seconds", seconds.facts()},    {"input", asked.facts()}};
   if (options.random.count > 0) report["seed"] = options.random.seed;
   report.update(found.facts);
-  if (options.is_about_inside) report["input"]["inside_out"] = inside_out.parts > 0;
+  if (options.is_about_inside) {
+    report["input"]["inside_out"] = notes.is_inside_out();
+    report["notes"] = notes.all();
+  }
   outputs.add_report(options.report, report);
   outputs.commit();
   asked.say_what();
   options.random.say_what("points");
   say("{}{}\n", options.out.empty() ? "" : output_name(options.out) + ": ", found.summary);
-  if (inside_out.parts > 0)
-    say("  {}: nothing is inside of it ({})\n", described(inside_out, input_name(options.in)), remedy(inside_out));
+  notes.say_them();
   say("  engine {}, {}: {} points per second\n", index.engine_name(), counted(threads, "thread"),
       grouped(static_cast<std::size_t>(per_second)));
   seconds.say_them();

@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <set>
 
 #include "prohull/detail/finite.h"
 #include "prohull/detail/inside_out.h"
-#include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "robot/link_triangles.h"
 #include "robot/motion/joint_paths.h"
@@ -16,19 +15,12 @@
 namespace prohull::robot {
 namespace {
 
-/// Cavities, and components that cross others, are turned with the whole mesh.
-std::string described_as_turned(const TriangleMesh& mesh, const TriangleMesh& outwards, const std::string& name) {
-  bool is_whole = true;
-  for (const FaceId f : mesh.triangles.ids()) is_whole = is_whole && mesh.triangles[f] != outwards.triangles[f];
-  return is_whole ? name + " is inside out" : described(inside_out_parts(mesh), name);
-}
-
 /// The closed shapes of a body, and its others.
 struct Shapes {
   TriangleMesh closed, open;
   TriangleMesh within;  // as closed, but within curved shapes
   bool are_curved = false;
-  std::string turned;
+  std::vector<std::string> notes;
 
   /// What stands for a curved shape.
   void add(const TriangleMesh& around, const TriangleMesh& inside) {
@@ -40,9 +32,9 @@ struct Shapes {
     mesh = with_finite_faces(std::move(mesh));
     if (mesh.face_count() == 0) return;
     if (!is_closed(mesh)) return append(open, mesh);
-    const TriangleMesh outwards = turned_outwards(mesh);
-    if (outwards.triangles != mesh.triangles) turned = described_as_turned(mesh, outwards, name);
-    append(closed, outwards), append(within, outwards);
+    const OutwardSolid solid = outward_solid(std::move(mesh), name);
+    std::ranges::move(solid.notes(), std::back_inserter(notes));
+    append(closed, solid.mesh), append(within, solid.mesh);
   }
 
   std::optional<ProofBody> shape() const {
@@ -56,7 +48,7 @@ struct Shapes {
 
   void give(PathBody& body) const {
     body.shape = shape();
-    body.turned = turned;
+    body.notes = notes;
     body.triangles = closed;
     append(body.triangles, open);
   }
@@ -80,10 +72,6 @@ std::size_t body_called(std::span<const PathBody> bodies, const std::string& nam
   throw InputError(Defect::InvalidOption,
                    fmt::format("no link with geometry and no mesh of the world is called '{}'; there are {}", name,
                                fmt::join(names, ", ")));
-}
-
-std::string turned_note(const PathBody& body) {
-  return body.turned.empty() ? "" : body.turned + ": it was turned, so that its inside counts as solid";
 }
 
 std::string open_note(const PathBody& body) {
@@ -150,8 +138,8 @@ PathBodies path_bodies(const Robot& robot, Geometry which, std::span<const World
   require_distinct_names(made.bodies);
   for (const PathBody& body : made.bodies) {
     if (!body.unread.empty()) made.notes.push_back(fmt::format("{}: {}", body.name, body.unread));
-    for (std::string& note : std::array{turned_note(body), open_note(body)})
-      if (!note.empty()) made.notes.push_back(std::move(note));
+    made.notes.insert(made.notes.end(), body.notes.begin(), body.notes.end());
+    if (std::string note = open_note(body); !note.empty()) made.notes.push_back(std::move(note));
   }
   return made;
 }

@@ -21,9 +21,9 @@ struct PathBody {
   std::optional<std::size_t> link;  ///< none: of the world
   /// The parts are the body's closed shapes, which are one solid, and its others, which are faces alone.
   std::optional<ProofBody> shape = {};
-  std::string unread = {};      ///< why nothing can be proven about it; empty if all of it was read
-  std::string turned = {};      ///< "arm is inside out": what was turned of a closed mesh of it
-  TriangleMesh triangles = {};  ///< of all parts
+  std::string unread = {};              ///< why nothing can be proven about it; empty if all of it was read
+  std::vector<std::string> notes = {};  ///< of its closed meshes, as OutwardSolid has them (detail/inside_out.h)
+  TriangleMesh triangles = {};          ///< of all parts
   /// A mesh file that has all of it but for where its frame is in that of the link; empty if there is none.
   std::filesystem::path file = {};
   Pose in_link = {};

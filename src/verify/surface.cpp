@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "geometry/orientation.h"
@@ -97,25 +98,54 @@ std::pair<std::vector<std::uint32_t>, std::uint32_t> components(const TriangleMe
   return {std::move(component), count};
 }
 
-/// Tells of each face how it faced.
-template <class See>
-Turned turn_outwards(TriangleMesh& mesh, std::string_view name, const See& see) {
-  require_usable(mesh, name);
-  const auto [component, count] = components(mesh);
-  const auto triangle = [&](std::size_t f) { return mesh.triangle(FaceId(static_cast<std::uint32_t>(f))); };
-  const Orientation facing = orientation(triangle, component, count);
+/// The components of a mesh, and how they face.
+struct Components {
+  explicit Components(const TriangleMesh& mesh) {
+    std::uint32_t count = 0;
+    std::tie(of_face, count) = components(mesh);
+    orientation = prohull::orientation(
+        [&](std::size_t f) { return mesh.triangle(FaceId(static_cast<std::uint32_t>(f))); }, of_face, count);
+  }
+
+  Facing facing(FaceId f) const { return orientation.components[of_face[index(f)]]; }
+  bool is_turned(FaceId f) const { return orientation.turn_all != (facing(f) == Facing::InsideOut); }
+  bool is_inside_out(FaceId f) const { return orientation.inside_out[of_face[index(f)]]; }
+
+  std::vector<std::uint32_t> of_face;
+  Orientation orientation;
+};
+
+Turned turn(TriangleMesh& mesh, const Components& components) {
   Turned turned;
   for (const FaceId f : mesh.triangles.ids()) {
+    if (!components.is_turned(f)) continue;
     auto& t = mesh.triangles[f];
-    const Facing own = facing.components[component[index(f)]];
-    see(f, own);
-    if (facing.turn_all == (own == Facing::InsideOut)) continue;
     std::swap(t[1], t[2]);
     if (t[1] == t[2]) continue;
     ++turned.faces;
-    turned.inwards += facing.inside_out[component[index(f)]] ? 1 : 0;
+    turned.inwards += components.is_inside_out(f) ? 1 : 0;
   }
   return turned;
+}
+
+/// "the component of face 12 of arm is inside out, as is 1 other": of the components for whose faces `is_one` holds;
+/// empty if there are none.
+template <class Predicate>
+std::string described(const Components& components, const TriangleMesh& mesh, const std::string& name,
+                      const Predicate& is_one) {
+  std::vector<bool> seen(components.orientation.components.size());
+  std::size_t count = 0;
+  FaceId first{};
+  for (const FaceId f : mesh.triangles.ids()) {
+    const std::uint32_t component = components.of_face[index(f)];
+    if (seen[component] || !is_one(f)) continue;
+    seen[component] = true;
+    if (count++ == 0) first = f;
+  }
+  if (count == 0) return "";
+  const std::string others =
+      count == 1 ? "" : fmt::format(", as {} {}", count == 2 ? "is" : "are", counted(count - 1, "other", "others"));
+  return fmt::format("the component of face {} of {} is inside out{}", index(first), name, others);
 }
 
 }  // namespace
@@ -155,14 +185,17 @@ bool is_one_sheet(const TriangleMesh& mesh) {
 }
 
 Turned turn_outwards(TriangleMesh& mesh, std::string_view name) {
-  return turn_outwards(mesh, name, [](FaceId, Facing) {});
+  require_usable(mesh, name);
+  return turn(mesh, Components(mesh));
 }
 
 std::vector<FaceId> turn_outwards_and_fill(TriangleMesh& mesh, std::string_view name) {
+  require_usable(mesh, name);
+  const Components components(mesh);
+  turn(mesh, components);
   std::vector<FaceId> kept;
-  turn_outwards(mesh, name, [&](FaceId f, Facing facing) {
-    if (facing != Facing::Cavity) kept.push_back(f);
-  });
+  for (const FaceId f : mesh.triangles.ids())
+    if (components.facing(f) != Facing::Cavity) kept.push_back(f);
   return kept;
 }
 
@@ -170,32 +203,27 @@ std::vector<FaceId> turn_outwards_and_fill(TriangleMesh& mesh, std::string_view 
 
 namespace prohull {
 
-InsideOut inside_out_parts(const TriangleMesh& mesh) {
-  InsideOut found;
-  const auto [component, count] = verify::components(mesh);
-  const auto triangle = [&](std::size_t f) { return mesh.triangle(FaceId(static_cast<std::uint32_t>(f))); };
-  const Orientation facing = orientation(triangle, component, count);
-  const std::vector<bool>& inside_out = facing.inside_out;
-  found.parts = static_cast<std::size_t>(std::ranges::count(inside_out, true));
-  found.is_all = found.parts > 0 && found.parts == inside_out.size();
-  found.crosses = std::ranges::count(facing.components, Facing::Unclear) > 0;
-  const auto first = std::ranges::find_if(component, [&](std::uint32_t c) { return inside_out[c]; });
-  if (found.parts > 0) found.first = FaceId(static_cast<std::uint32_t>(first - component.begin()));
-  return found;
+std::vector<std::string> OutwardSolid::notes() const {
+  std::vector<std::string> all{turned, hollow};
+  std::erase(all, "");
+  return all;
 }
 
-std::string described(const InsideOut& found, const std::string& name) {
-  if (found.parts == 0) return "";
-  if (found.is_all) return name + " is inside out";
-  const std::string others = found.parts == 1 ? ""
-                                              : fmt::format(", as {} {}", found.parts == 2 ? "is" : "are",
-                                                            counted(found.parts - 1, "other", "others"));
-  return fmt::format("the component of face {} of {} is inside out{}", index(found.first), name, others);
-}
-
-std::string remedy(const InsideOut& found) {
-  return found.crosses ? "turn it where the mesh was made: it crosses or repeats other components"
-                       : "`prohull repair` turns it";
+OutwardSolid outward_solid(TriangleMesh closed, const std::string& name) {
+  require_usable(closed, name);
+  OutwardSolid solid{std::move(closed), {}, {}};
+  TriangleMesh& mesh = solid.mesh;
+  const verify::Components components(mesh);
+  const std::size_t turned = verify::turn(mesh, components).faces;
+  const auto stays = [&](FaceId f) { return components.facing(f) == Facing::Unclear; };
+  const auto turns = [&](FaceId f) { return components.is_inside_out(f) && !stays(f); };
+  if (turned > 0)
+    solid.turned =
+        (turned == mesh.face_count() ? name + " is inside out" : verify::described(components, mesh, name, turns)) +
+        ": it was turned, so that its inside counts as solid";
+  if (const std::string hollow = verify::described(components, mesh, name, stays); !hollow.empty())
+    solid.hollow = hollow + ": nothing is inside of it (turn it where the mesh was made: it crosses or repeats others)";
+  return solid;
 }
 
 TriangleMesh turned_outwards(TriangleMesh mesh) {

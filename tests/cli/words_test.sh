@@ -219,11 +219,21 @@ done
 # --- inside out ---
 awk '/^f / { print "f", $2, $4, $3; next } { print }' cube.obj >inverted.obj
 printf 'v 0.4 0.4 0.4\nv 0.6 0.4 0.4\nv 0.4 0.6 0.4\nv 0.4 0.4 0.6\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' >inside.obj
-for command in "collide inverted.obj inside.obj" "contains inverted.obj --random 9" "distance inverted.obj --random 9 --signed"; do
-  expect 0 "inside out: $command" $prohull $command --report inverted.json
-  says out "inside out: $command" "inverted.obj is inside out: "
-  says inverted.json "inside out: $command" '"inside_out": true'
+turned="is inside out: it was turned, so that its inside counts as solid"
+expect 1 "inside out: collide" $prohull collide inverted.obj inside.obj --report collide.json
+says out "inside out: collide" "inverted.obj $turned"
+says collide.json "inside out: collide" '"solid": true'
+says collide.json "inside out: the note" "\"inverted.obj $turned\""
+expect 0 "inside out: contains" $prohull contains inverted.obj --random 9 --report contains.json
+says out "inside out: contains" "9 of 9 points inside"
+expect 0 "inside out: distance" $prohull distance inverted.obj --random 9 --signed --report distance.json
+says out "inside out: distance" "distances from -"
+for command in contains distance; do
+  says out "inside out: $command" "inverted.obj $turned"
+  says $command.json "inside out: $command" '"inside_out": true'
+  says $command.json "inside out: $command, the note" "\"inverted.obj $turned\""
 done
+expect 1 "inside out, conservatively" $prohull collide inverted.obj inside.obj --conservative
 expect 0 "distances from faces have no inside" $prohull distance inverted.obj --random 9
 says_not out "distances from faces have no inside" "inside out"
 # Beside an outward cube: together they have no volume, or less than none.
@@ -234,15 +244,19 @@ for size in 1 1.2; do
     grep '^f' cube.obj
     awk '/^f / { print "f", $2 + 8, $4 + 8, $3 + 8 }' cube.obj
   } >parts.obj
-  expect 1 "one part inside out" $prohull collide parts.obj inside.obj --report parts.json
-  says out "one part inside out" "the component of face 12 of parts.obj is inside out: "
-  says parts.json "one part inside out" '"inside_out": true'
-  for command in "contains parts.obj --random 99" "distance parts.obj --random 99 --signed"; do
-    expect 0 "one part inside out: $command" $prohull $command
-    says out "one part inside out: $command" "the component of face 12 of parts.obj is inside out: nothing is inside of it"
-  done
-  expect 3 "one part inside out, conservatively" $prohull collide parts.obj inside.obj --conservative
-  says err "one part inside out, conservatively" "the component of face 12 of the mesh is inside out"
+  expect 1 "one part inside out" $prohull collide parts.obj inside.obj --pose 2,0,0,1,0,0,0
+  says out "one part inside out" "the component of face 12 of parts.obj $turned"
+done
+
+# --- faces alone ---
+grep -v '^f 1 ' cube.obj >lidless.obj
+for pair in "lidless.obj inside.obj" "inside.obj lidless.obj"; do
+  expect 0 "faces alone" $prohull collide $pair --report open.json -q
+  says err "faces alone, with -q" "prohull: lidless.obj is not closed: only its faces count, not what lies inside"
+  says open.json "faces alone, in the report" "\"lidless.obj is not closed: only its faces count"
+  expect 0 "faces alone" $prohull collide $pair
+  says out "faces alone" "lidless.obj is not closed: only its faces count, not what lies inside"
+  is "faces alone, once" test ! -s err
 done
 expect 1 "no part inside out" $prohull collide nested.obj inside.obj
 says_not out "no part inside out" "inside out"
@@ -466,8 +480,6 @@ says out "too few steps for spheres" "UNDECIDED: it is undecided whether the bal
 
 # --- what is inside out, and what does not enclose ---
 awk '/^f/ { print $1, $2, $4, $3; next } 1' cube.obj >turned.obj
-expect 0 "nothing is inside" $prohull contains turned.obj --random 9
-says out "nothing is inside" "nothing is inside of it (\`prohull repair\` turns it)"
 {
   grep '^v' cube.obj
   awk '/^v / { print "v", 0.5 + $2, 0.5 + $3, 0.5 + $4 }' cube.obj
@@ -476,10 +488,12 @@ says out "nothing is inside" "nothing is inside of it (\`prohull repair\` turns 
 } >crossing.obj
 expect 0 "what repair does not turn" $prohull contains crossing.obj --random 9
 says_not out "what repair does not turn" "prohull repair"
-says out "what repair does not turn" "it crosses or repeats other components"
-expect 1 "no solid" $prohull collide turned.obj cube.obj --report collide.json
-is "no solid" test "$(grep -c '"solid": false' collide.json)" = 1
-says_not out "no solid" "is not closed"
+says out "what repair does not turn" "it crosses or repeats others"
+expect 0 "what repair does not turn, with -q" $prohull contains crossing.obj --random 9 -q --report crossing.json
+says err "what repair does not turn, with -q" "nothing is inside of it"
+says crossing.json "what repair does not turn, in the report" "nothing is inside of it"
+expect 3 "what encloses nothing, conservatively" $prohull collide crossing.obj cube.obj --conservative
+says err "what encloses nothing, conservatively" "the component of face 12 of crossing.obj is inside out"
 expect 3 "what is not closed has a name" $prohull collide cube.obj bucket.obj --conservative
 says err "what is not closed has a name" "bucket.obj: it is not closed"
 expect 0 "an inner hierarchy" $prohull build rock.ply --side inner --faces 100 -o inner.obj --hierarchy inner.phull

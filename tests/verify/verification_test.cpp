@@ -332,22 +332,26 @@ TEST(VerifyHull, TurnsMeshesThatAreInsideOutAndSaysSo) {
   EXPECT_TRUE(says(found, "12 faces of the original look inwards"));
 }
 
-TEST(InsideOutParts, AreComponentsOfNegativeVolumeThatAreNoCavities) {
+TEST(OutwardSolid, TurnsComponentsOfNegativeVolumeThatAreNoCavities) {
+  const std::string turned = ": it was turned, so that its inside counts as solid";
   const TriangleMesh cube = box({-1, -1, -1}, {1, 1, 1}), cavity = inside_out(scaled(cube, 0.5));
   const TriangleMesh beside = inside_out(moved(scaled(cube, 2), {9, 0, 0}));
-  EXPECT_EQ(described(inside_out_parts(cube), "it"), "");
-  EXPECT_EQ(described(inside_out_parts(together(cube, cavity)), "it"), "");
-  EXPECT_EQ(described(inside_out_parts(inside_out(cube)), "it"), "it is inside out");
-  EXPECT_EQ(described(inside_out_parts(together(cube, beside)), "it"), "the component of face 12 of it is inside out");
-  const InsideOut hollow = inside_out_parts(inside_out(together(cube, cavity)));
-  EXPECT_EQ(hollow.parts, 1u);
-  EXPECT_FALSE(hollow.is_all);
-  EXPECT_EQ(described(inside_out_parts(together(together(cube, beside), moved(beside, {0, 9, 0}))), "it"),
-            "the component of face 12 of it is inside out, as is 1 other");
+  for (const TriangleMesh& mesh : {cube, together(cube, cavity)}) {
+    EXPECT_EQ(outward_solid(mesh, "it").mesh, mesh);
+    EXPECT_TRUE(outward_solid(mesh, "it").notes().empty());
+  }
+  EXPECT_EQ(outward_solid(inside_out(cube), "it").turned, "it is inside out" + turned);
+  EXPECT_EQ(outward_solid(inside_out(together(cube, cavity)), "it").mesh, together(cube, cavity));
+  EXPECT_EQ(outward_solid(inside_out(together(cube, cavity)), "it").turned, "it is inside out" + turned);
+  EXPECT_EQ(outward_solid(together(cube, beside), "it").turned,
+            "the component of face 12 of it is inside out" + turned);
+  EXPECT_EQ(outward_solid(together(together(cube, beside), moved(beside, {0, 9, 0})), "it").turned,
+            "the component of face 12 of it is inside out, as is 1 other" + turned);
+  const TriangleMesh small_bar = inside_out(box({-0.5, -0.5, -1.5}, {0.5, 0.5, 1.5}));
+  const OutwardSolid crossed = outward_solid(together(cube, small_bar), "it");
+  EXPECT_EQ(crossed.hollow.find("the component of face 12 of it is inside out: nothing is inside of it"), 0u);
+  EXPECT_EQ(crossed.turned, "");
   const TriangleMesh bar = inside_out(box({-0.5, -0.5, -9}, {0.5, 0.5, 9}));  // larger than the cube, and crosses it
-  EXPECT_EQ(described(inside_out_parts(together(cube, bar)), "it"), "the component of face 12 of it is inside out");
-  EXPECT_TRUE(inside_out_parts(together(cube, bar)).crosses);
-  EXPECT_FALSE(inside_out_parts(together(cube, beside)).crosses);
   EXPECT_TRUE(says(verify_hull(kLarge, together(cube, bar)),
                    "24 faces of the original count as turned, as its volume is negative: 12 of these look inwards"));
 }

@@ -1,28 +1,25 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "prohull/triangle_mesh.h"
 
 namespace prohull {
 
-/// The components of a mesh that are inside out: their volume is negative, and they are no cavities of others.
-struct InsideOut {
-  std::size_t parts = 0;
-  bool is_all = false;   ///< the mesh has no other components
-  bool crosses = false;  ///< one of them crosses or repeats others: repairs do not turn it
-  FaceId first{};        ///< the first face of them, if there are any
+/// A closed mesh as the solid that it stands for, and what is to be said of it.
+struct OutwardSolid {
+  TriangleMesh mesh;   ///< turned_outwards: the same faces with the same numbers
+  std::string turned;  ///< "arm is inside out: it was turned, so that its inside counts as solid"; may be empty
+  /// "the component of face 12 of arm is inside out: nothing is inside of it": what crosses or repeats others, so that
+  /// it stays as it is; may be empty.
+  std::string hollow;
+
+  bool was_inside_out() const { return !turned.empty() || !hollow.empty(); }
+  std::vector<std::string> notes() const;  ///< those of the two that are not empty
 };
 
-/// Required: the mesh is closed and finite. Components are connected by edges, matched by position. As exact as
-/// turned_outwards.
-InsideOut inside_out_parts(const TriangleMesh& mesh);
-
-/// "arm.stl is inside out", "the component of face 12 of arm.stl is inside out"; empty if there are none.
-std::string described(const InsideOut& found, const std::string& name);
-
-/// What turns them: "`prohull repair` turns it".
-std::string remedy(const InsideOut& found);
+/// Required: the mesh is closed and finite. As exact as turned_outwards.
+OutwardSolid outward_solid(TriangleMesh closed, const std::string& name);
 
 }  // namespace prohull
