@@ -172,7 +172,10 @@ BuildOutcome build_and_write(BuildOptions options) {
   if (options.recenter) outcome.offset = recentering_offset(mesh);
   if (!options.tolerance.empty()) set_regions(options, outcome, mesh, marks, unit);
   CertifiedOriginal original;
-  if (!options.certificate.empty()) original = certified_original(mesh, options.in, options.input);
+  if (!options.certificate.empty()) {
+    naming(options.in, [&] { require_certifiable(mesh, options.enclosing.hull.side); });
+    original = certified_original(mesh, options.in, options.input);
+  }
   mesh = minus(std::move(mesh), outcome.offset);
   outcome.made = build(std::move(mesh), options);
   Outputs outputs;
@@ -366,7 +369,9 @@ void add_build(CLI::App& app, Run& run) {
             "without this option.")
       ->excludes(tight)
       ->excludes(gap);
-  add_certificate_option(command, options->certificate, "the hull")->excludes(recenter);
+  add_certificate_option(command, options->certificate, "the hull",
+                         " There is none of an inner hull of a mesh that is not closed.")
+      ->excludes(recenter);
   add_choice(command, "--self-intersections", hull.self_intersections, self_intersections_names(),
              "Whether collapses may make an outer hull intersect itself, which is faster. by-strategy allows it for "
              "the strategies paper1 and paper2 only.");

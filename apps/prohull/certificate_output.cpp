@@ -26,11 +26,12 @@ std::filesystem::path unpacked(const std::filesystem::path& path) { return is_pa
 
 }  // namespace
 
-CLI::Option* add_certificate_option(CLI::App& command, std::filesystem::path& file, const std::string& what) {
+CLI::Option* add_certificate_option(CLI::App& command, std::filesystem::path& file, const std::string& what,
+                                    const std::string& limits) {
   return add_value(command, "--certificate", file, "FILE",
                    "Also write a certificate: a file with which prohull_check, a program of one C file that shares "
                    "nothing with this one, decides again from the bytes of " +
-                       what + " and of the original what is proven (docs/certificate.md).");
+                       what + " and of the original what is proven (docs/certificate.md)." + limits);
 }
 
 void check_certified_original(const std::filesystem::path& certificate, const std::filesystem::path& original) {

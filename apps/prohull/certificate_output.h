@@ -11,8 +11,9 @@
 
 namespace prohull::cli {
 
-/// --certificate of a command whose outputs `what` names: "the hull".
-CLI::Option* add_certificate_option(CLI::App& command, std::filesystem::path& file, const std::string& what);
+/// --certificate of a command whose outputs `what` names: "the hull". `limits` are sentences that follow.
+CLI::Option* add_certificate_option(CLI::App& command, std::filesystem::path& file, const std::string& what,
+                                    const std::string& limits = "");
 
 /// Before any work, if there is to be a certificate: throws InputError(InvalidOption) for an original that
 /// prohull_check does not read.

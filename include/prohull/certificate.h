@@ -53,9 +53,12 @@ struct Certificate {
   std::size_t flat_triangles_in_doubt = 0;
 };
 
+/// Throws InputError(OpenEdge) for an inner hull if the original is not closed: it has no inside, of which a
+/// certificate could tell.
+void require_certifiable(const TriangleMesh& original, HullSide side);
+
 /// Of a hull with the coordinates that its file has. The triangles of the original that are not finite are left out. If
-/// the original is not closed, it has no solid. Throws InputError if no triangle is finite, and for an inner hull if
-/// the original is not closed.
+/// the original is not closed, it has no solid. Throws InputError if no triangle is finite, and as require_certifiable.
 ///
 ///     const CertifiedOriginal original{read_mesh("part.ply", {.non_finite = NonFinite::Keep})};
 ///     const EnclosingHull hull = enclosing_hull(original.mesh, 500);

@@ -7,18 +7,24 @@
 #include "certificate/finite_original.h"
 #include "certificate/flat_triangles.h"
 #include "prohull/certificate.h"
+#include "prohull/detail/finite.h"
 #include "prohull/detail/rounded.h"
 #include "prohull/error.h"
 
 namespace prohull {
+
+void require_certifiable(const TriangleMesh& original, HullSide side) {
+  if (side == HullSide::Inner && !is_closed(with_finite_faces(original)))
+    throw InputError(Defect::OpenEdge,
+                     "it is not closed, and has no inside of which a certificate of an inner hull could tell; close it "
+                     "with `prohull repair`, or make no certificate");
+}
+
 Certificate hull_certificate(const TriangleMesh& hull, const CertifiedOriginal& original, const HullClaims& claims) {
   const bool is_outer = claims.side == HullSide::Outer;
   using certificate::Section;
+  require_certifiable(original.mesh, claims.side);
   const certificate::FiniteOriginal finite(original.mesh);
-  if (!is_outer && !finite.is_closed)
-    throw InputError(
-        Defect::OpenEdge,
-        "the original is not closed: it has no inside, of which a certificate of an inner hull could tell");
   Certificate made;
   certificate::File file = certificate::header(claims.side, original, hull.face_count(), finite);
   file.section(Section::Surfaces);
