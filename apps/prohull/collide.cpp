@@ -31,7 +31,7 @@ std::vector<Pose> poses_of(const CollideOptions& options) {
                         "poses", options.poses);
   if (options.pose.empty()) return {Pose{}};
   try {
-    return require_some(read_poses(std::string_view(options.pose), "--pose"), "numbers", "--pose");
+    return {read_pose(options.pose, "--pose")};
   } catch (const InputError& error) {
     throw InputError(Defect::InvalidOption, error.what());
   }

@@ -114,11 +114,26 @@ std::string mesh_suffix(const std::filesystem::path& path) {
   return text == ".gz" ? mesh_suffix(path.stem()) : text;
 }
 
+namespace {
+
+/// What is said of a mesh that is no more than a point.
+std::optional<InputError> why_no_size(const TriangleMesh& mesh) {
+  try {
+    repaired_mesh(mesh);
+    return std::nullopt;
+  } catch (const InputError& error) {
+    return error;
+  }
+}
+
+}  // namespace
+
 MeshUnit::MeshUnit(const TriangleMesh& mesh, const std::filesystem::path& path, const InputOptions& options,
                    const FileUnit& file)
     : name_(input_name(path)),
       diagonal_(finite_bounding_box(mesh).diagonal()),
       scale_(options.scale),
+      why_no_size_(diagonal_ == 0 ? why_no_size(mesh) : std::nullopt),
       metres_(options.unit > 0     ? 1
               : options.scale == 1 ? file.metres
                                    : 0) {}
@@ -130,11 +145,8 @@ double MeshUnit::number_of(const Length& length, const std::string& what) const 
         fmt::format("{} {:g}{}: {}, or say a number in the mesh's unit", what, length.number, length.unit,
                     scale_ != 1 ? "with --scale, the unit of " + name_ + " is not known; use --unit instead"
                                 : name_ + " does not say its unit; add --unit mm (lengths are then in metres)"));
-  if (length.unit == "%" && length.number > 0 && diagonal_ == 0)
-    throw InputError(Defect::EmptyMesh,
-                     fmt::format("{}: {} is a share of the mesh's diagonal, but the mesh has no faces, "
-                                 "or all its points are the same",
-                                 name_, what));
+  if (length.unit == "%" && length.number > 0 && why_no_size_)
+    throw InputError(why_no_size_->defect(), fmt::format("{}: {}", name_, why_no_size_->what()));
   return length.needs_metres() ? length.of(diagonal_) / metres_ : length.of(diagonal_);
 }
 

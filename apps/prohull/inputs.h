@@ -60,7 +60,8 @@ class MeshUnit {
  private:
   std::string name_;
   double diagonal_, scale_;
-  double metres_;  ///< of the unit; 0: not known
+  std::optional<InputError> why_no_size_;  ///< if the diagonal is 0
+  double metres_;                          ///< of the unit; 0: not known
 };
 
 /// The name of an input in messages: that of "-" is "standard input".

@@ -43,7 +43,7 @@ class CsvReader {
  public:
   CsvReader(std::string_view content, const std::string& file, const Columns& columns)
       : separator_(separator_of(content)),
-        scanner_(content, file, {.comments = true, .separator = separator_}),
+        scanner_(content, file, {.comments = true, .separator = separator_, .lines_count = columns.lines_count}),
         columns_(columns),
         row_(columns.names.size()) {}
 

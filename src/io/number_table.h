@@ -15,6 +15,7 @@ struct Columns {
   std::string_view array;               ///< its name in an .npz file: "segments"
   std::vector<std::string_view> names;  ///< "x0", "y0", "z0", "x1", ...
   std::size_t per_point = 3;            ///< how many numbers the points have
+  bool lines_count = true;              ///< messages of a .csv file say the line: false of the argument of an option
 };
 
 /// Takes the rows of a table one after the other.

@@ -71,7 +71,8 @@ Pose pose_of_matrix(std::span<const double> m) {
   return {{Vec3{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}, {m[3], m[7], m[11]}};
 }
 
-const PoseRow& pose_row(std::size_t numbers) {
+/// Of a first row with so many numbers; of no row, any.
+const PoseRow& pose_row(std::size_t numbers, const std::string& name) {
   static const std::vector<std::string_view> affine{"r00", "r01", "r02", "x",   "r10", "r11",
                                                     "r12", "y",   "r20", "r21", "r22", "z"};
   static const std::vector<std::string_view> square = [] {
@@ -83,7 +84,12 @@ const PoseRow& pose_row(std::size_t numbers) {
                                      return pose_of_quaternion(n[3], n[4], n[5], n[6], {n[0], n[1], n[2]});
                                    }};
   static const PoseRow kAffine{affine, 4, pose_of_matrix}, kSquare{square, 4, pose_of_matrix};
-  return numbers == 12 ? kAffine : numbers == 16 ? kSquare : kQuaternion;
+  for (const PoseRow* const form : {&kQuaternion, &kAffine, &kSquare})
+    if (numbers == 0 || numbers == form->names.size()) return *form;
+  fail(name, {Place::Unit::None},
+       fmt::format(
+           "a pose has 7 numbers, {}; or 12, the upper three rows of a matrix of 4 x 4; or all 16; this one has {}",
+           joined(kQuaternion.names), numbers));
 }
 
 /// How many numbers the first row has, as far as that can be seen without reading it.
@@ -103,20 +109,24 @@ std::size_t numbers_per_row(std::string_view content, const std::filesystem::pat
   return 0;
 }
 
+RowSink poses_into(std::vector<Pose>& poses, const PoseRow& form, const std::string& name) {
+  return [&](std::span<const double> row, Place place) {
+    try {
+      const bool is_affine = row.size() != 16 || (row[12] == 0 && row[13] == 0 && row[14] == 0 && row[15] == 1);
+      if (!is_affine) throw InputError(Defect::Malformed, "the last row of the matrix is not 0,0,0,1");
+      poses.push_back(form.pose(row));
+      require_rigid(poses.back());
+    } catch (const InputError& error) {
+      fail(name, place, error.what(), Defect::Malformed);
+    }
+  };
+}
+
 std::vector<Pose> read_uncompressed_poses(std::string_view content, const std::filesystem::path& name) {
-  const PoseRow& form = pose_row(numbers_per_row(content, name));
+  const std::string file = name.string();
+  const PoseRow& form = pose_row(numbers_per_row(content, name), file);
   std::vector<Pose> poses;
-  read_uncompressed(
-      content, name, {"poses", form.names, form.per_point}, [&](std::span<const double> row, Place place) {
-        try {
-          const bool is_affine = row.size() != 16 || (row[12] == 0 && row[13] == 0 && row[14] == 0 && row[15] == 1);
-          if (!is_affine) throw InputError(Defect::Malformed, "the last row of the matrix is not 0,0,0,1");
-          poses.push_back(form.pose(row));
-          require_rigid(poses.back());
-        } catch (const InputError& error) {
-          fail(name.string(), place, error.what(), Defect::Malformed);
-        }
-      });
+  read_uncompressed(content, name, {"poses", form.names, form.per_point}, poses_into(poses, form, file));
   return poses;
 }
 
@@ -178,6 +188,15 @@ std::vector<Vec3> read_points(std::string_view content, const std::filesystem::p
 std::vector<Pose> read_poses(std::string_view content, const std::filesystem::path& name) {
   return is_gzip(content) ? read_uncompressed_poses(gunzip(content, name), name)
                           : read_uncompressed_poses(content, name);
+}
+
+Pose read_pose(std::string_view text, const std::string& option) {
+  const PoseRow& form = pose_row(numbers_per_line(text, option), option);
+  std::vector<Pose> poses;
+  read_csv(text, option, {"poses", form.names, form.per_point, false}, poses_into(poses, form, option));
+  if (poses.size() != 1)
+    fail(option, {Place::Unit::None}, poses.empty() ? "there are no numbers" : "there is more than one pose");
+  return poses.front();
 }
 
 }  // namespace prohull

@@ -13,6 +13,7 @@ struct TextSyntax {
   bool comments = false;         ///< from a '#' that starts a word to the end of the line
   bool continued_lines = false;  ///< a backslash at the end of a line joins it with the next
   char separator = 0;            ///< also ends words, if it is not 0
+  bool lines_count = true;       ///< whether messages say the line
 };
 
 /// Walks through a text in memory, word by word and line by line, and knows where it is. Lines end with LF or CR LF; a
@@ -44,7 +45,7 @@ class TextScanner {
   double number(std::string_view what);
   std::int64_t integer(std::string_view what);
 
-  Place place() const { return {Place::Unit::Line, line_}; }
+  Place place() const { return {syntax_.lines_count ? Place::Unit::Line : Place::Unit::None, line_}; }
   const std::string& file() const { return file_; }
   [[noreturn]] void fail(std::string_view message) const { prohull::fail(file_, place(), message); }
 

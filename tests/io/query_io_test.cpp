@@ -222,7 +222,19 @@ TEST(QueryReader, RefusesWhatIsNoPose) {
   const auto refuse = [](const char* content, const char* message) {
     expect_input_error([&] { read_poses(content, "poses.csv"); }, Defect::Malformed, message);
   };
-  refuse("1,2,3\n", "poses.csv: line 1: there is no comma after z; each line has 7 numbers: x,y,z,qw,qx,qy,qz");
+  const std::string forms =
+      "a pose has 7 numbers, x,y,z,qw,qx,qy,qz; or 12, the upper three rows of a matrix of 4 x 4; or all 16; ";
+  refuse("1,2,3\n", ("poses.csv: " + forms + "this one has 3").c_str());
+  refuse("0,0,0,1,0,0,0\n1,2,3\n",
+         "poses.csv: line 2: there is no comma after z; each line has 7 numbers: x,y,z,qw,qx,qy,qz");
+  const auto refuse_option = [](const char* text, const std::string& message) {
+    expect_input_error([&] { read_pose(text, "--pose"); }, Defect::Malformed, message.c_str());
+  };
+  refuse_option("1,2,3,4,5,6,7,8,9,10,11,12,13", "--pose: " + forms + "this one has 13");
+  refuse_option("1,2,x,1,0,0,0", "--pose: 'x' is not a number; expected z");
+  refuse_option("0,0,0,0,0,0,0", "--pose: a quaternion of a pose must be finite, and not 0");
+  refuse_option("", "--pose: there are no numbers");
+  refuse_option("0,0,0,1,0,0,0\n0,0,0,1,0,0,0", "--pose: there is more than one pose");
   refuse("0,0,0,1,0,0,0\n0,0,0,0,0,0,0\n", "poses.csv: line 2: a quaternion of a pose must be finite, and not 0");
   refuse("0,0,0,nan,0,0,0\n", "poses.csv: line 1: a quaternion of a pose must be finite, and not 0");
   refuse("2,0,0,0,0,2,0,0,0,0,2,0\n",

@@ -40,6 +40,9 @@ std::vector<Triangle> read_triangles(std::string_view content, const std::filesy
 /// Malformed if a pose is not rigid (collide.h).
 std::vector<Pose> read_poses(std::string_view content, const std::filesystem::path& name);
 
+/// The same of one pose, the argument of an option, which messages name.
+Pose read_pose(std::string_view text, const std::string& option);
+
 /// Reads points in the same way: x,y,z, of shape (n, 3), an array called `points`.
 std::vector<Vec3> read_points(std::string_view content, const std::filesystem::path& name);
 
