@@ -255,9 +255,13 @@ class LinkChecker {
       check_.verdict = CheckVerdict::Undecided;
     check_.faces_outside += part.outside.face_count();
     check_.sticks_out_at_most = std::max(check_.sticks_out_at_most, part.reach.upper);
-    if (part.reach.lower < check_.sticks_out_at_least) return;
-    check_.sticks_out_at_least = part.reach.lower;
-    check_.worst_point = part.reach.farthest;
+    if (part.reach.lower > check_.sticks_out_at_least) {
+      check_.sticks_out_at_least = part.reach.lower;
+      check_.worst_point = part.reach.farthest;
+    } else if (check_.sticks_out_at_least == 0 && part.outside.face_count() > 0) {
+      const Triangle face = part.outside.triangle(FaceId{});
+      check_.worst_point = (face.a + face.b + face.c) / 3;
+    }
   }
 
   template <class Measure>
@@ -289,9 +293,10 @@ class LinkChecker {
     return with_forms(all.triangles, all.curved, curved, fine_segments(all.curved.size()));
   }
 
-  /// The pieces, but for forms that are visual ones as well: these reach nowhere.
+  /// The pieces, but for those that are visual ones as well: these reach nowhere.
   SolidPieces other_pieces() const {
     SolidPieces others{.solids = {}, .tangled = {}, .triangles = pieces_.triangles, .curved = pieces_.curved};
+    if (pieces_.triangles == visual_.triangles) others.triangles = {};
     std::erase_if(others.curved, [&](const CurvedForm& form) { return std::ranges::count(visual_.curved, form) > 0; });
     return others;
   }
@@ -321,7 +326,8 @@ class LinkChecker {
   /// From the visual geometry as a mesh, which is around its curved forms: the solid reaches farther than theirs.
   void measure_reach_from(const TriangleMesh& from, bool is_solid) {
     const double around = reach_of_meshes(visual_.curved, shown_segments(link_.visual.size()));
-    check_.reach = from_forms(reach_of(other_pieces(), from, is_solid), around, is_solid);
+    if (const SolidPieces others = other_pieces(); !others.empty())
+      check_.reach = from_forms(reach_of(others, from, is_solid), around, is_solid);
     MeshQuery query{QueryIndex(from)};
     check_.mean_distance = mean_over(fine_mesh(pieces_, Curved::Within), [&](const Vec3& p) {
       return is_solid ? std::max(0.0, query.signed_distance(p).distance) : query.closest_point(p)->distance;

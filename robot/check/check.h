@@ -30,8 +30,10 @@ struct LinkCheck {
   double sticks_out_at_least = 0;  ///< proven: some point of the visual geometry is that far outside
   double sticks_out_at_most = 0;   ///< proven: none is farther
   double rounding = 0;             ///< what is below may come of rounding; about 1e-12 of the link's size
-  Vec3 worst_point;                ///< such a point, in the frame of the link, if sticks_out_at_least > 0
-  std::size_t faces_outside = 0;   ///< faces of the visual geometry that are not covered
+  /// Such a point, in the frame of the link. If sticks_out_at_least is 0, the middle of a face that is not covered, if
+  /// there are any.
+  Vec3 worst_point;
+  std::size_t faces_outside = 0;  ///< faces of the visual geometry that are not covered
   std::size_t visual_faces = 0, collision_faces = 0, pieces = 0;
   double visual_volume = 0;     ///< of what lies inside of the visual geometry: as EnclosingHulls::volume; 0: unknown
   double collision_volume = 0;  ///< of the union of the pieces; estimated, where they overlap

@@ -14,6 +14,7 @@
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 #include "prohull/mesh_query.h"
+#include "prohull/sample.h"
 #include "random.h"
 #include "robot/transform.h"
 #include "verify/convex_pairs.h"
@@ -67,6 +68,26 @@ TEST_F(Check, ABoxCoversItselfAndWhatIsWithin) {
   EXPECT_GT(check.mean_distance, 0.5);
   EXPECT_LT(check.mean_distance, 0.75);
   EXPECT_TRUE(passes(check));
+}
+
+TEST_F(Check, TheVisualShapesThemselvesReachNowhere) {
+  std::vector<Shape> arms;
+  for (const double x : {0.0, 0.3, 0.6}) arms.push_back(shape(CapsuleForm{0.2, 1}, translation_by({x, 0, 0})));
+  EXPECT_EQ(checked(arms, arms).reach.upper, 0);
+  EXPECT_EQ(checked(arms, {arms[2], arms[0], arms[1]}).reach.upper, 0);
+  EXPECT_GT(checked(arms, {arms[0], arms[1], shape(CapsuleForm{0.25, 1}, translation_by({0.6, 0, 0}))}).reach.lower, 0);
+  arms.push_back(cube(0.5));
+  EXPECT_EQ(checked(arms, arms).reach.upper, 0);
+}
+
+TEST_F(Check, OfNextToNoLeakTellsWhere) {
+  TriangleMesh ball = make_sample("sphere", 500);
+  for (Vec3& p : ball.positions) p = p / norm(p);
+  const LinkCheck check = checked({mesh(ball)}, {shape(SphereForm{1})});
+  ASSERT_EQ(check.verdict, CheckVerdict::Leaks);
+  ASSERT_EQ(check.sticks_out_at_least, 0);
+  EXPECT_GT(check.sticks_out_at_most, 0);
+  EXPECT_GT(norm(check.worst_point), 0.9);
 }
 
 TEST_F(Check, WhatLiesInsideOfTheSolidDoesNotReachOutOfIt) {
