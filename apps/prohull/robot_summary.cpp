@@ -116,22 +116,63 @@ std::string hulls_text(const ReportInput& facts) {
   return text + collision_only_text(facts);
 }
 
-std::string shipped_text(const ReportInput& facts) {
-  std::size_t covered = 0, leaks = 0, bare = 0;
-  const LinkCheck* worst = nullptr;
-  for (const LinkCheck& check : facts.shipped) {
-    covered += check.verdict == CheckVerdict::Covered, bare += check.verdict == CheckVerdict::NoCollision;
-    if (check.verdict != CheckVerdict::Leaks) continue;
-    ++leaks;
-    if (!worst || check.sticks_out_at_least > worst->sticks_out_at_least) worst = &check;
+/// How a link stands, as a word of the table, and where links are counted.
+struct Standing {
+  std::string_view word, counted;
+};
+
+Standing standing(const LinkCheck& check, double allow) {
+  constexpr Standing kAllowed{"within the allowance", "within the allowance"};
+  switch (check.verdict) {
+    case CheckVerdict::Covered:
+      return {"covered", "covered"};
+    case CheckVerdict::Leaks:
+      return passes(check, allow) ? kAllowed : Standing{"LEAKS", "leaking"};
+    case CheckVerdict::Undecided:
+      if (check.sticks_out_at_most <= allow) return kAllowed;
+      return passes(check, allow) ? Standing{"covered, but for rounding", "covered"}
+                                  : Standing{"UNDECIDED", "undecided"};
+    case CheckVerdict::NoCollision:
+      return {"NO COLLISION GEOMETRY", "without collision geometry"};
+    case CheckVerdict::NoVisual:
+      return {"no visual geometry", ""};
+    case CheckVerdict::Missing:
+      return {"NOT CHECKED", "not checked"};
   }
-  if (covered + leaks + bare == 0) return "";
-  std::string text = fmt::format("  shipped collision geometry: {} covered", counted(covered, "link"));
-  if (bare > 0) text += fmt::format(", {} without any", bare);
-  if (worst)
-    text += fmt::format(", {} leaking; the worst is {}, by {}", leaks, facts.file.robot.links[worst->link].name,
-                        at_least(worst->sticks_out_at_least));
-  return text + "\n";
+  return {};
+}
+
+/// "3 links covered, 3 leaking, 1 undecided": of all links with something to cover; empty if there are none.
+std::string counts_text(std::span<const LinkCheck> checks, double allow) {
+  const auto count = [&](std::string_view word) {
+    return static_cast<std::size_t>(
+        std::ranges::count(checks, word, [&](const LinkCheck& check) { return standing(check, allow).counted; }));
+  };
+  if (count("") == checks.size()) return "";
+  std::string text = counted(count("covered"), "link") + " covered";
+  for (const std::string_view word :
+       {"within the allowance", "leaking", "undecided", "without collision geometry", "not checked"})
+    if (const std::size_t links = count(word); links > 0) text += fmt::format(", {} {}", grouped(links), word);
+  return text;
+}
+
+std::string leak_text(const LinkCheck& check) {
+  if (check.verdict == CheckVerdict::Covered) return "0";
+  return check.sticks_out_at_least > 0 ? at_least(check.sticks_out_at_least)
+                                       : "<= " + at_most(check.sticks_out_at_most);
+}
+
+std::string shipped_text(const ReportInput& facts) {
+  const std::string counts = counts_text(facts.shipped, facts.allow);
+  if (counts.empty()) return "";
+  const auto leak = [](const LinkCheck& check) {
+    const bool leaks = check.verdict == CheckVerdict::Leaks;
+    return std::tuple(leaks, check.sticks_out_at_least, check.sticks_out_at_most);
+  };
+  const LinkCheck& worst = *std::ranges::max_element(facts.shipped, {}, leak);
+  if (worst.verdict != CheckVerdict::Leaks) return fmt::format("  shipped collision geometry: {}\n", counts);
+  return fmt::format("  shipped collision geometry: {}; the worst is {}, by {}\n", counts,
+                     facts.file.robot.links[worst.link].name, leak_text(worst));
 }
 
 std::string motion_text(const MotionResult& motion, std::string_view covers, bool sampled_pairs) {
@@ -256,30 +297,21 @@ Plan plan_of(const Link& link, const LinkHullOptions& options) {
   return {text};
 }
 
-std::string verdict_text(const LinkCheck& check, double allow) {
-  switch (check.verdict) {
-    case CheckVerdict::Covered:
-      return "covered";
-    case CheckVerdict::Leaks:
-      return passes(check, allow) ? "within the allowance" : "LEAKS";
-    case CheckVerdict::Undecided:
-      if (check.sticks_out_at_most <= allow) return "within the allowance";
-      return passes(check, allow) ? "covered, but for rounding" : "UNDECIDED";
-    case CheckVerdict::NoCollision:
-      return "NO COLLISION GEOMETRY";
-    case CheckVerdict::NoVisual:
-      return "no visual geometry";
-    case CheckVerdict::Missing:
-      return "NOT CHECKED";
-  }
-  return "";
+/// An argument of --allow with which what sticks out passes.
+std::string allowance_text(double length) {
+  constexpr double kMicrometre = 1e-6;
+  return fmt::format("{:.3g}mm", rounded_up(1000 * std::max(length, kMicrometre), 3));
 }
 
-void say_notes(const RobotFile& file, const LinkCheck& check) {
+void say_notes(const RobotFile& file, const LinkCheck& check, double allow) {
   const std::string& name = file.robot.links[check.link].name;
+  const Vec3& p = check.worst_point;
+  const std::string place = fmt::format("({:.5g}, {:.5g}, {:.5g}), in the frame of the link", p.x, p.y, p.z);
   if (check.sticks_out_at_least > 0)
-    say("  {}: leaks farthest at ({:.5g}, {:.5g}, {:.5g}), in the frame of the link\n", name, check.worst_point.x,
-        check.worst_point.y, check.worst_point.z);
+    say("  {}: leaks farthest at {}\n", name, place);
+  else if (check.verdict == CheckVerdict::Leaks && check.faces_outside > 0 && !passes(check, allow))
+    say("  {}: leaks next to nothing near {}; `--allow {}` lets that pass\n", name, place,
+        allowance_text(check.sticks_out_at_most));
   for (const std::string& note : check.notes) say("  {}: {}\n", name, note);
 }
 
@@ -337,14 +369,14 @@ void say_check(const RobotFile& file, std::span<const LinkCheck> checks, double 
   for (const LinkCheck& check : checks) {
     const std::string& name = file.robot.links[check.link].name;
     if (robot::was_measured(check))
-      table.add({name, check.verdict == CheckVerdict::Covered ? "0" : at_least(check.sticks_out_at_least),
-                 ratio(check.collision_volume, check.visual_volume), ratio(check.collision_volume, check.convex_volume),
-                 at_most(check.reach.upper), verdict_text(check, allow)});
+      table.add({name, leak_text(check), ratio(check.collision_volume, check.visual_volume),
+                 ratio(check.collision_volume, check.convex_volume), at_most(check.reach.upper),
+                 std::string(standing(check, allow).word)});
     else
-      table.add({name, "", "", "", "", verdict_text(check, allow)});
+      table.add({name, "", "", "", "", std::string(standing(check, allow).word)});
   }
   say("{}", table.text());
-  for (const LinkCheck& check : checks) say_notes(file, check);
+  for (const LinkCheck& check : checks) say_notes(file, check, allow);
   const auto failed = std::ranges::count_if(checks, [&](const LinkCheck& check) { return !passes(check, allow); });
   const auto missing = std::ranges::count(checks, CheckVerdict::Missing, &LinkCheck::verdict);
   const bool rounds = std::ranges::count(checks, CheckVerdict::Undecided, &LinkCheck::verdict) > 0;
@@ -353,12 +385,11 @@ void say_check(const RobotFile& file, std::span<const LinkCheck> checks, double 
         allow > 0 ? ", or lets it stick out by at most " + millimetres(allow)
         : rounds  ? ", but for rounding"
                   : ", exactly");
-  else if (failed == missing)
-    say("NO: {} of {} not checked\n", missing, counted(checks.size(), "link is", "links are"));
   else
-    say("NO: {} of {} not covered{}; `prohull urdf {} -o DIR` makes collision meshes that cover them\n",
-        failed - missing, counted(checks.size(), "link is", "links are"),
-        missing > 0 ? fmt::format(", and {} not checked", missing) : "", file.path.string());
+    say("NO: {}{}\n", counts_text(checks, allow),
+        failed == missing ? ""
+                          : fmt::format("; `prohull urdf {} -o DIR` makes collision meshes that cover all of them",
+                                        file.path.string()));
 }
 
 void say_disabled(const Robot& robot, const std::string& file, std::span<const DisabledCheck> checks) {

@@ -387,7 +387,43 @@ says_not out "a distance that is kept" "keep a distance"
 expect 1 "a distance that is not kept" $prohull spheres cube.obj -o s.json --max-distance 0.01 --count 1
 says out "a distance that is not kept" "no cover by 1 sphere was found that keeps a distance of 0.01"
 
+# --- what is refused before any work ---
+expect 3 "a certificate of an inner hull" $prohull build bucket.obj --side inner --faces 60 -o inner.obj --certificate inner.phcert
+says err "a certificate of an inner hull" "bucket.obj: it is not closed"
+says err "a certificate of an inner hull" "prohull repair"
+printf 'OFF\n0 0 0\n' >none.off
+printf 'OFF\n3 1 0\n1 1 1\n1 1 1\n1 1 1\n3 0 1 2\n' >point.off
+for mesh in none.off point.off; do
+  expect 3 "no size: $mesh" $prohull build $mesh --faces 60 -o hull.obj --max-distance 1
+  cp err plain
+  expect 3 "no size: $mesh" $prohull build $mesh --faces 60 -o hull.obj --max-distance 2%
+  is "the same words of $mesh" cmp err plain
+done
+expect 2 "13 numbers" $prohull collide cube.obj cube.obj --pose 1,2,3,4,5,6,7,8,9,10,11,12,13
+says err "13 numbers" "or 12, the upper three rows"
+says_not err "an option has no lines" "line 1"
+
 # --- robots ---
+cat >links.urdf <<'EOF'
+<robot name="r">
+<link name="covered"><visual><geometry><box size="1 1 1"/></geometry></visual>
+  <collision><geometry><box size="1 1 1"/></geometry></collision></link>
+<link name="leaking"><visual><geometry><box size="1 1 1.5"/></geometry></visual>
+  <collision><geometry><box size="1 1 1"/></geometry></collision></link>
+<link name="undecided"><visual><geometry><cylinder radius="1" length="1"/></geometry></visual>
+  <collision><origin xyz="0 0 0.25"/><geometry><cylinder radius="1" length="0.5"/></geometry></collision>
+  <collision><origin xyz="0 0 -0.25"/><geometry><cylinder radius="1" length="0.5"/></geometry></collision></link>
+<link name="bare"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
+<joint name="a" type="fixed"><parent link="covered"/><child link="leaking"/></joint>
+<joint name="b" type="fixed"><parent link="covered"/><child link="undecided"/></joint>
+<joint name="c" type="fixed"><parent link="covered"/><child link="bare"/></joint>
+</robot>
+EOF
+counts="1 link covered, 1 leaking, 1 undecided, 1 without collision geometry"
+expect 1 "links are counted" $prohull urdf --check links.urdf
+says out "links are counted" "NO: $counts; "
+$prohull urdf links.urdf -o links_safe --faces 50 >out 2>err
+says out "links are counted in one way" "shipped collision geometry: $counts; the worst is leaking"
 cat >robot.urdf <<'EOF'
 <robot name="r"><link name="a">
   <visual><geometry><mesh filename="nowhere.stl"/></geometry></visual>
@@ -395,7 +431,7 @@ cat >robot.urdf <<'EOF'
 </link></robot>
 EOF
 expect 1 "a mesh that is missing" $prohull urdf --check robot.urdf
-says out "a mesh that is missing" "NO: 1 of 1 link is not checked"
+says out "a mesh that is missing" "NO: 0 links covered, 1 not checked"
 says_not out "a mesh that is missing" "makes collision meshes"
 printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n' >flat.obj
 cat >robot.urdf <<'EOF'
