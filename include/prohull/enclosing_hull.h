@@ -120,8 +120,11 @@ struct EnclosingHulls {
   RepairedMesh input;
   std::vector<Solid> solids;         ///< all that were tried, in this order
   std::vector<EnclosingHull> hulls;  ///< one for each number of faces, in the order in which they were asked for
-  double volume = 0;                 ///< of what lies inside of the input; 0 if nothing is known of it
-  bool is_estimated = true;   ///< `volume` is an estimate, from a wrap; otherwise it is Verification::original_volume
+  /// Of what lies inside of the input, with the cavities that repairs have filled; 0 if nothing is known of it.
+  double volume = 0;
+  /// `volume` is an estimate, from a wrap. Otherwise it is Verification::original_volume, or where cavities are filled
+  /// that of RepairedMesh::closed.
+  bool is_estimated = true;
   double repair_seconds = 0;  ///< includes the wraps
 };
 

@@ -173,7 +173,7 @@ double convex_volume(const JudgedGeometry& geometry) {
 /// construction.
 void describe_input(const JudgedGeometry& geometry, LinkHulls& result, const Progress& go_on) {
   const RepairedMesh& input = geometry.input;
-  if (!(result.sealed_volume > 0) || !geometry.curved.parts.empty()) {
+  if (!(result.sealed_volume > 0) || !geometry.curved.parts.empty() || input.repairs.dropped_components > 0) {
     const InsideVolume sealed = sealed_volume(geometry, result.hulls, go_on);
     result.sealed_volume = sealed.volume, result.is_estimated = sealed.is_estimated;
   }

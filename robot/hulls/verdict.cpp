@@ -138,7 +138,10 @@ void judge(LinkHull& hull, const JudgedGeometry& geometry, const Budget& budget,
 
 InsideVolume sealed_volume(const JudgedGeometry& geometry, std::span<const LinkHull> hulls, const Progress& go_on) {
   const SolidPieces& parts = geometry.curved.parts;
-  const InsideVolume inside = parts.empty() ? volume_inside(geometry.input, go_on) : volume_of(parts, go_on);
+  const RepairedMesh& input = geometry.input;
+  const InsideVolume inside = !parts.empty()                         ? volume_of(parts, go_on)
+                              : input.repairs.dropped_components > 0 ? volume_inside(input.closed->mesh, go_on)
+                                                                     : volume_inside(input, go_on);
   const auto encloses = [&](const LinkHull& hull) { return hull.volume >= inside.volume; };
   const bool may_be = !inside.is_estimated || std::ranges::all_of(hulls, encloses);
   return {may_be ? inside.volume : 0, inside.is_estimated};

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "cover/cavities.h"
 #include "enclose/candidates.h"
 #include "enclose/known_void.h"
 #include "enclose/usable_options.h"
@@ -69,7 +70,7 @@ EnclosingHulls best_hulls(Request request, std::span<const std::size_t> target_f
   if (request.input.closed) require_volume(solids.verified_volume(target_faces.front()), bounds);
   EnclosingHulls made;
   for (const std::size_t faces : target_faces) made.hulls.push_back(best_hull(request, faces, solids));
-  const double volume = made.hulls.front().verdict.original_volume;
+  const double volume = solids.filled_volume().value_or(made.hulls.front().verdict.original_volume);
   made.is_estimated = !(volume > 0);
   made.volume = made.is_estimated ? solids.volume(target_faces.front()) : volume;
   require_volume(made.volume, bounds);
@@ -78,6 +79,7 @@ EnclosingHulls best_hulls(Request request, std::span<const std::size_t> target_f
   made.input = std::move(request.input);
   for (EnclosingHull& hull : made.hulls) {
     hull.void_ratio = known_void(made, hull);
+    if (solids.filled_volume()) cover::add_note_of_cavities(hull.verdict.original_volume, made.volume, hull.notes);
     hull.mesh = without_unused_vertices(std::move(hull.mesh));
   }
   return made;

@@ -11,8 +11,8 @@
 namespace prohull {
 namespace {
 
-// Of the levels, the coarsest that keeps the bounds. Where the solid misses them itself, as one whose cavities are
-// filled, the coarsest that is about as near: all bounds that are missed have the same answer.
+// Of the levels, the coarsest that keeps the bounds. Where the solid misses them itself, as one that was changed around
+// its folds, the coarsest that is about as near: all bounds that are missed have the same answer.
 std::size_t faces_of_level(const ProgressiveHull& hull, const Making& making) {
   constexpr double kAsNear = 1.01;
   const std::size_t target = making.candidate.target_faces;

@@ -46,12 +46,17 @@ Solids::Solids(const Request& request)
                                    "its parts first, for instance by Blender's voxel remesh",
                                    grouped(pairs)));
   }
+  double exact = volume_;
   const bool is_exact = has_mesh() && entries_[0].solid.self_intersections == 0;
-  if (options.repair != Repair::None && closed && !is_exact && request.is_outer())
-    if (const double volume = volume_without_overlaps(); volume > 0) volume_ = volume;
+  if (options.repair != Repair::None && closed && !is_exact && request.is_outer()) {
+    exact = exact_volume();
+    const double volume = std::isnan(exact) ? estimated_volume(closed->mesh) : exact;
+    if (volume > 0) volume_ = volume;
+  }
+  if (request.input.repairs.dropped_components > 0 && closed) filled_volume_ = std::isnan(exact) ? 0 : exact;
   if (options.bounds.any() && original_.has_solid()) {
     ProgressMeter meter(options.progress, "repair");
-    verified_volume_ = original_.solid().volume(meter);
+    verified_volume_ = filled_volume_ ? *filled_volume_ : original_.solid().volume(meter);
   }
   repair_seconds_ += watch.seconds();
 }
@@ -62,13 +67,12 @@ std::size_t Solids::self_intersections_of(const TriangleMesh& mesh) {
   return original_.solid().self_intersections(meter).size();
 }
 
-// Parts that overlap would count twice in a signed volume. Estimated where they overlap too often.
-double Solids::volume_without_overlaps() {
+// Parts that overlap would count twice in a signed volume. NaN where they overlap too often.
+double Solids::exact_volume() {
   const TriangleMesh& mesh = request_.input.closed->mesh;
   ProgressMeter meter(request_.options.progress, "repair");
-  const double exact = has_triangles_of(mesh, original_.solid().mesh()) ? original_.solid().volume(meter)
-                                                                        : verify::solid_volume(mesh, meter);
-  return std::isnan(exact) ? estimated_volume(mesh) : exact;
+  return has_triangles_of(mesh, original_.solid().mesh()) ? original_.solid().volume(meter)
+                                                          : verify::solid_volume(mesh, meter);
 }
 
 SolidId Solids::add(Solid solid) {

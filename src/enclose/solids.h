@@ -60,9 +60,12 @@ class Solids {
 
   /// Of what lies inside of the input; 0 if nothing is known of it. Of what is not closed, the first wrap tells it.
   double volume(std::size_t faces) const;
-  /// That with which bounds compare hulls, as verify_hull has it: without the cavities that were filled before hulls
-  /// were built. As `volume` where the original bounds no solid, or is too tangled.
+  /// That with which bounds compare hulls: filled_volume, or that of the original as verify_hull has it. As `volume`
+  /// where the original bounds no solid, or is too tangled.
   double verified_volume(std::size_t faces) const;
+  /// Of the closed mesh, where repairs have dropped parts within others, as cavities: as verify_hull would have it, and
+  /// 0 where it is too tangled. None if nothing was dropped.
+  std::optional<double> filled_volume() const { return filled_volume_; }
   double repair_seconds() const { return repair_seconds_; }
   std::vector<Solid> taken();  ///< all, in the order in which they were made; nothing is left here
 
@@ -78,7 +81,7 @@ class Solids {
 
   SolidId add(Solid solid);
   std::size_t self_intersections_of(const TriangleMesh& mesh);
-  double volume_without_overlaps();
+  double exact_volume();
   std::optional<Solid> slab() const;
   TriangleMesh padded_convex_solid(TriangleMesh convex) const;
 
@@ -86,6 +89,7 @@ class Solids {
   verify::Original original_;
   std::vector<Entry> entries_;
   double volume_ = 0, verified_volume_ = 0, repair_seconds_ = 0;
+  std::optional<double> filled_volume_;
   bool has_no_convex_hull_ = false;
   std::optional<std::optional<SolidId>> unfolded_;  ///< once it was asked for
   std::optional<SolidId> convex_hull_;

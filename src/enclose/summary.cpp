@@ -81,7 +81,6 @@ std::string line_of_missed_bounds(const ToldHull& told) {
   if (is_open || told.input_self_intersections > 0)
     line += fmt::format("{} mend the mesh where it {}", missing > kFar ? ";" : ", or",
                         is_open ? "is open or intersects itself" : "intersects itself");
-  if (told.made.input.repairs.dropped_components > 0) line += ", or leave cavities open by --keep-cavities";
   return line;
 }
 

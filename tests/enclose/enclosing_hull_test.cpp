@@ -209,7 +209,7 @@ TEST(EnclosingHull, HasNoVoidBelowZeroWherePartsOverlap) {
   EXPECT_GE(made.hulls[0].void_ratio, -1e-9);
 }
 
-// The void that is told is that of the file: without its cavity, and with overlaps counted once.
+// The void that is told is that of the solid: with its cavity filled, and with overlaps counted once.
 TEST(EnclosingHull, KeepsBoundsOfTheVoidThatIsTold) {
   const TriangleMesh sphere = make_sample("sphere", 800);
   TriangleMesh cavity = inside_out(sphere), beside = sphere;
@@ -559,16 +559,26 @@ TEST(EnclosingHull, OfABoundThatNoHullKeepsIsNear) {
   EXPECT_TRUE(kept.within_bounds && kept.excess <= 1);
 }
 
-// What its cavity has of volume is too much for the bound; a hull of few faces has much more.
-TEST(EnclosingHull, WhatMissesABoundByItsCavitiesIsNear) {
+TEST(EnclosingHull, CavitiesThatAreFilledAreNoVoid) {
   const TriangleMesh rock = make_sample("asteroid", 200);
-  TriangleMesh cavity = rock;
-  for (Vec3& p : cavity.positions) p = 0.3 * p;
-  for (auto& [a, b, c] : cavity.triangles) std::swap(b, c);
-  const EnclosingHulls made = hull_of(together(rock, cavity), 20, {.bounds = {.max_void_ratio = 0.01}});
-  const double filled = signed_volume(rock) / made.volume - 1;
-  EXPECT_FALSE(only(made).within_bounds);
-  EXPECT_LE(only(made).void_ratio, 1.02 * filled);
+  const TriangleMesh mesh = together(rock, inside_out(scaled(rock, 0.7)));
+  const double cavity = signed_volume(scaled(rock, 0.7)) / signed_volume(mesh);
+  const EnclosingHulls all = hull_of(mesh, rock.face_count());
+  EXPECT_EQ(only(all).void_ratio, 0);
+  EXPECT_FALSE(all.is_estimated);
+  EXPECT_NEAR(only(all).verdict.void_ratio, cavity, 1e-9) << "verify_hull compares with the mesh as it is";
+  ASSERT_EQ(only(all).notes.size(), 1u);
+  EXPECT_EQ(only(all).notes[0].find("cavities of the mesh count as filled"), 0u);
+  for (const HullBounds& bounds :
+       {HullBounds{.max_void_ratio = 0.2}, HullBounds{.max_added_volume = 0.2 * signed_volume(rock)}}) {
+    const EnclosingHulls made = hull_of(mesh, 20, {.bounds = bounds});
+    EXPECT_TRUE(only(made).within_bounds);
+    EXPECT_LE(only(made).void_ratio, 0.2);
+    EXPECT_LT(only(made).mesh.face_count(), rock.face_count());
+  }
+  const EnclosingHulls kept = hull_of(mesh, mesh.face_count(), {.keep_cavities = true});
+  EXPECT_NEAR(kept.volume, signed_volume(mesh), 1e-9);
+  EXPECT_TRUE(only(kept).notes.empty());
 }
 
 // The wrap is as fine as the bound asks for, whatever the number of faces.
