@@ -49,6 +49,12 @@ is() {
   "$@" || fail "$name"
 }
 
+# same NAME A B: the two files have the same bytes
+same() {
+  checks=$((checks + 1))
+  cmp -s "$2" "$3" || fail "$1: $2 and $3 differ"
+}
+
 # The last line of a test: says the counts, and fails if a check has.
 count_checks() {
   echo "$((checks - failures)) passed, $failures failed"

@@ -1,0 +1,33 @@
+#!/bin/sh
+# Drives `prohull verify` with originals that are no solid: verify_test.sh PROHULL DIVISOR
+# Each check names what it defends; the last line counts them.
+set -u
+prohull=$1 divisor=$2
+. "$(dirname "$0")/checks.sh"
+. "$(dirname "$0")/meshes.sh"
+make_rock
+make_inner
+
+# --- originals that are no solid ---
+$prohull lod rock.phull --faces 20000000 -o finest.obj >/dev/null
+sed '$d' finest.obj >open.obj
+expect 0 "an open original" $prohull verify hull.stl open.obj --report verify.json
+says out "an open original" "covers every triangle of open.obj, exactly"
+says out "an open original" "the original is not closed"
+says verify.json "report: an open original" '"original_closed": false'
+expect 0 "an open original by a proof" $prohull verify rock.phull open.obj
+says out "an open original by a proof" "covers every triangle of open.obj"
+expect 0 "a closed original, its solid" $prohull verify hull.stl rock.ply --solid-only
+says out "a closed original, its solid" "encloses the solid of rock.ply, exactly"
+expect 0 "a proof, the solid" $prohull verify rock.phull rock.ply --solid-only
+(cat open.obj && printf 'v 9 0 0\nf 1 2 -1\n') >stray.obj
+for hull in hull.stl rock.phull; do
+  expect 1 "a stray triangle" $prohull verify $hull stray.obj --report verify.json
+  says out "a stray triangle" "1 face of stray.obj lies outside"
+  says verify.json "report: a stray triangle" '"faces_outside": 1'
+done
+expect 3 "an inner hull of an open original" $prohull verify inner.obj open.obj --side inner
+says err "an inner hull of an open original" "not closed"
+expect 3 "an inner proof of an open original" $prohull verify inner.phull open.obj
+
+count_checks
