@@ -23,7 +23,7 @@ import pathlib
 import sys
 import time
 import warnings
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Mapping, Sequence
 from typing import Any, Literal, NamedTuple, Optional, TypeVar, Union, get_args, overload
 
 import numpy as np
@@ -107,16 +107,7 @@ def build_folder(client: "distributed.Client", meshes: Union[Path, Sequence[Mesh
     """
     out = pathlib.Path(out).resolve()
     jobs = _jobs(_named(meshes, out), out, suffix, _checked({"target_faces": target_faces, **options}, suffix))
-    rows: dict[int, Row] = {}
-    told = _Told(progress, len(jobs))
-    for i, job in enumerate(jobs):
-        row = job if isinstance(job, Row) else _finished(job)
-        if row:
-            rows[i] = row if row is job else row._replace(status="kept")
-    told.add(len(rows), sum(row.status != "kept" for row in rows.values()))
-    todo = {i: job for i, job in enumerate(jobs) if i not in rows}
-    rows.update(_all_rows(client, _build, todo, Row, told))
-    return _reported(out / "report.csv", rows, Row)
+    return _run(client, _built, jobs, Row, out / "report.csv", progress, _finished)
 
 
 class RobotRow(NamedTuple):
@@ -152,18 +143,16 @@ def build_robots(client: "distributed.Client", files: Union[Sequence[Path], Mapp
     have; OSError if `out` cannot be written.
     """
     out = pathlib.Path(out).resolve()
-    _require_known("build_robots", "hulls", options, _options_of(robot.Robot.hulls) - {"progress"})
+    _require_known("build_robots", robot.Robot.hulls, options, others={"progress"})
     options = {"faces": faces, "threads": 1, "cache": str(out / "cache"), **options}
     for name in ("budgets", "cache"):  # workers may have other working directories
         if options.get(name) is not None:
             options[name] = os.path.abspath(options[name])
     packages = [os.path.abspath(path) for path in package_paths]
-    jobs = {i: _RobotJob(name, os.path.abspath(path), str(out / name), packages, options)
-            for i, (name, path) in enumerate(_robots_by_name(files).items())}
+    jobs = [_RobotJob(name, os.path.abspath(path), str(out / name), packages, options)
+            for name, path in _robots_by_name(files).items()]
     out.mkdir(parents=True, exist_ok=True)
-    told = _Told(progress, len(jobs))
-    told.add(0)
-    return _reported(out / "robots.csv", _all_rows(client, _build_robot, jobs, RobotRow, told), RobotRow)
+    return _run(client, _built_robot, jobs, RobotRow, out / "robots.csv", progress)
 
 
 def build_partitioned(client: "distributed.Client", mesh: MeshLike, target_faces: int = 2000, *, parts: int = 8,
@@ -246,9 +235,7 @@ def query(client: "distributed.Client", mesh: MeshLike, segments: ArrayLike, kin
     # Multiples of what a batch answers at a time, which paper-refinement can tell.
     size = -(-max(1, chunk) // 512) * 512
     chunks = {start: rows[start:start + size] for start in range(0, max(1, len(rows)), size)}
-    workers: Any = client
-    with _large_arguments():
-        held = workers.submit(_held, bare, pure=False)
+    held = _submitted(client, _held, bare)
     told = _Told(progress, len(rows))
     answers: dict[int, Any] = {}
     with contextlib.closing(_completed(client, _ask, chunks.items(), held, kind, engine, threads)) as completed:
@@ -273,12 +260,6 @@ class _Part(NamedTuple):
     own_faces: int
     box: NDArray[np.float64]  # its least and its greatest corner
     target_faces: int
-
-
-class _Simplified(NamedTuple):
-    kept: NDArray[np.uint32]  # the vertices of the part that are left: the first that the faces count
-    vertices: NDArray[np.float64]  # those that are new
-    faces: NDArray[np.uint32]
 
 
 def _require_closed(mesh: Mesh) -> None:
@@ -335,12 +316,12 @@ def _joined(client: "distributed.Client", mesh: Mesh, count: int, target_faces: 
             target = target_faces * len(own) // max(1, len(mesh.faces)) + _BORDER * at_border
             yield i, _Part(vertices, faces, len(own), box, max(4, target))
 
-    made: dict[int, _Simplified] = {}
-    with contextlib.closing(_completed(client, _simplify, parts(), options)) as completed:
+    made: dict[int, Any] = {}
+    with contextlib.closing(_completed(client, _simplified, parts(), options)) as completed:
         for i, future in completed:
             made[i] = future.result()
             told.add(1)
-    return _together_again(mesh, [(numbers[i], made[i]) for i in range(count)])
+    return _together_again(mesh, [(numbers[i], *made[i]) for i in range(count)])
 
 
 def _compact(faces: Any, vertices: int) -> tuple[Any, Any]:
@@ -351,15 +332,14 @@ def _compact(faces: Any, vertices: int) -> tuple[Any, Any]:
     return np.flatnonzero(is_used), places[faces]
 
 
-def _together_again(mesh: Mesh, parts: Sequence[tuple[Any, _Simplified]]) -> Mesh:
+def _together_again(mesh: Mesh, parts: Sequence[tuple[Any, ...]]) -> Mesh:
     vertices, faces, count = [mesh.vertices], [], len(mesh.vertices)
-    for numbers, made in parts:
-        new = np.arange(count, count + len(made.vertices))
-        faces.append(np.concatenate([numbers[made.kept], new])[made.faces])
-        vertices.append(made.vertices)
-        count += len(made.vertices)
-    kept, joined = _compact(np.concatenate(faces), count)
-    return Mesh(np.concatenate(vertices)[kept], joined)
+    for numbers, kept, new, of_part in parts:
+        vertices.append(new)
+        faces.append(np.concatenate([numbers[kept], np.arange(count, count + len(new))])[of_part])
+        count += len(new)
+    used, joined = _compact(np.concatenate(faces), count)
+    return Mesh(np.concatenate(vertices)[used], joined)
 
 
 class _RobotJob(NamedTuple):
@@ -370,13 +350,11 @@ class _RobotJob(NamedTuple):
     options: dict[str, Any]
 
 
-def _require_known(caller: str, called: str, options: dict[str, Any], known: set[str]) -> None:
-    if unknown := options.keys() - known:
-        raise TypeError(f"{caller}() got options that {called}() does not have: {', '.join(sorted(unknown))}")
-
-
-def _options_of(function: Callable[..., Any]) -> set[str]:
-    return {p.name for p in inspect.signature(function).parameters.values() if p.kind is p.KEYWORD_ONLY}
+def _require_known(caller: str, called: Callable[..., Any], options: Iterable[str], others: Collection[str] = ()) -> None:
+    """`others` are keywords of `called` that are none of its options here."""
+    known = {p.name for p in inspect.signature(called).parameters.values() if p.kind is p.KEYWORD_ONLY}
+    if unknown := set(options) - (known - set(others)):
+        raise TypeError(f"{caller}() got options that {called.__name__}() does not have: {', '.join(sorted(unknown))}")
 
 
 def _is_path(mesh: Any) -> bool:
@@ -410,14 +388,14 @@ class _Job(NamedTuple):
 
 
 def _checked(options: dict[str, Any], suffix: str) -> dict[str, Any]:
-    _require_known("build_folder", "build", options, {"target_faces", *_options_of(prohull.build)})
+    _require_known("build_folder", prohull.build, options.keys() - {"target_faces"})
     if np.ndim(options["target_faces"]) > 0:
         raise InputError(f"target_faces={options['target_faces']!r}: expected one number")
     if suffix.lower() not in get_args(Suffix):
         raise InputError(f"suffix={suffix!r}: expected one of {', '.join(get_args(Suffix))}")
-    if suffix.lower() == ".phull" and options.get("tight"):
-        raise InputError("suffix='.phull': a tight hull has no levels; give another suffix or leave out tight")
     keeps_levels = suffix.lower() == ".phull"
+    if keeps_levels and options.get("tight"):
+        raise InputError("suffix='.phull': a tight hull has no levels; give another suffix or leave out tight")
     if keeps_levels and not options.get("levels", True):
         raise InputError("suffix='.phull': these files hold levels; give another suffix or leave out levels")
     return {"float32_coordinates": suffix.lower() in (".stl", ".glb"), "threads": 1,
@@ -495,11 +473,11 @@ def _digest(mesh: Mesh) -> str:
 # On the worker.
 
 
-def _build(job: _Job) -> Row:
+def _row_of(job: Any, build: Callable[[Any], _AnyRow], row: type[_AnyRow]) -> _AnyRow:
     try:
-        return _finished(job) or _built(job)
-    except Exception as error:  # whatever it is, the other meshes are to be built
-        return _row_of_error(job.name, error, Row)
+        return build(job)
+    except Exception as error:  # whatever it is, the others are to be built
+        return _row_of_error(job.name, error, row)
 
 
 def _finished(job: _Job) -> Optional[Row]:
@@ -515,6 +493,8 @@ def _finished(job: _Job) -> Optional[Row]:
 
 
 def _built(job: _Job) -> Row:
+    if known := _finished(job):  # by a worker that died later
+        return known
     start = time.perf_counter()
     hull = prohull.build(job.mesh, **job.options)
     notes = "; ".join([*hull.repairs, *hull.notes])
@@ -529,26 +509,24 @@ def _built(job: _Job) -> Row:
     return row
 
 
-def _build_robot(job: _RobotJob) -> RobotRow:
+def _built_robot(job: _RobotJob) -> RobotRow:
     start = time.perf_counter()
-    try:
-        hulls = robot.Robot.load(job.path, job.package_paths).hulls(**job.options)
-        made = [hull for link in hulls for hull in link.hulls]
-        notes = "; ".join(f"{link.name}: {note}" for link in hulls for hull in link.hulls for note in hull.notes)
-        if not hulls.certified:
-            return RobotRow(job.name, "failed", message=f"not certified: {notes}")
-        file = next(path for path in hulls.save(job.folder) if os.path.dirname(path) == job.folder)
-        return RobotRow(job.name, "built", file, sum(bool(link.hulls) for link in hulls), len(made),
-                        sum(len(hull.mesh.faces) for hull in made), round(time.perf_counter() - start, 3), notes)
-    except Exception as error:  # whatever it is, the other robots are to be built
-        return _row_of_error(job.name, error, RobotRow)
+    hulls = robot.Robot.load(job.path, job.package_paths).hulls(**job.options)
+    made = [hull for link in hulls for hull in link.hulls]
+    notes = "; ".join(f"{link.name}: {note}" for link in hulls for hull in link.hulls for note in hull.notes)
+    if not hulls.certified:
+        return RobotRow(job.name, "failed", message=f"not certified: {notes}")
+    file = next(path for path in hulls.save(job.folder) if os.path.dirname(path) == job.folder)
+    return RobotRow(job.name, "built", file, sum(bool(link.hulls) for link in hulls), len(made),
+                    sum(len(hull.mesh.faces) for hull in made), round(time.perf_counter() - start, 3), notes)
 
 
-def _simplify(part: "_Part", options: dict[str, Any]) -> "_Simplified":
+def _simplified(part: _Part, options: dict[str, Any]) -> tuple[Any, Any, Any]:
+    """The vertices of the part that are left, the first that the faces count; those that are new; and the faces."""
     mesh = _prohull.Mesh(part.vertices, part.faces.astype(np.int64))
     made, kept = _prohull.simplified_part(mesh, part.own_faces, part.box, None,
-                                            {**options, "target_faces": part.target_faces})
-    return _Simplified(kept, made.vertices[len(kept):], made.faces)
+                                          {**options, "target_faces": part.target_faces})
+    return kept, made.vertices[len(kept):], made.faces
 
 
 def _held(mesh: Mesh) -> Mesh:
@@ -574,8 +552,7 @@ def _completed(client: Any, function: Callable[..., Any], jobs: Iterable[tuple[i
     def submit() -> None:
         most = 1 if alone else 2 * max(1, sum(client.nthreads().values()))
         for _, (key, job) in zip(range(most - len(under_way)), waiting):
-            with _large_arguments():
-                future = client.submit(function, job, *arguments, pure=False)
+            future = _submitted(client, function, job, *arguments)
             under_way[future] = key
             pool.add(future)
 
@@ -589,32 +566,39 @@ def _completed(client: Any, function: Callable[..., Any], jobs: Iterable[tuple[i
             client.cancel(list(under_way))
 
 
-@contextlib.contextmanager
-def _large_arguments() -> Iterator[None]:
+def _submitted(client: Any, function: Callable[..., Any], *arguments: Any) -> Any:
     """Meshes and segments go with their tasks, so that any worker can begin them anew; dask would rather scatter them,
     which is lost with a worker."""
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="(?s)(Large object|Sending large graph) of size")
-        yield
+        return client.submit(function, *arguments, pure=False)
 
 
-def _is_killed(future: Any) -> bool:
-    return future.status == "error" and isinstance(future.exception(), distributed.KilledWorker)
-
-
-def _all_rows(client: "distributed.Client", build: Callable[..., Any], jobs: Mapping[int, Any], row: Any,
-              told: "_Told") -> dict[int, Any]:
-    """What build(job) returns for each of the jobs, or a row that says why it did not."""
+def _run(client: "distributed.Client", build: Callable[..., Any], jobs: Sequence[Any], row: Any, file: pathlib.Path,
+         progress: Optional[Progress], known: Callable[[Any], Any] = lambda job: None) -> list[Any]:
+    """What build(job) returns for each of the jobs, or a row that says why it did not; the file gets the rows, too. A
+    row among the jobs stands for itself, and known(job) tells what an earlier run has built."""
     rows: dict[int, Any] = {}
+    for i, job in enumerate(jobs):
+        if isinstance(job, row):
+            rows[i] = job
+        elif earlier := known(job):
+            rows[i] = earlier._replace(status="kept")
+    told = _Told(progress, len(jobs))
+    told.add(len(rows), sum(row.status != "kept" for row in rows.values()))
     for alone in (False, True):  # what was lost with its worker again: something beside it may have killed that
-        todo = {i: job for i, job in jobs.items() if i not in rows}
-        with contextlib.closing(_completed(client, build, todo.items(), alone=alone)) as completed:
+        todo = [(i, job) for i, job in enumerate(jobs) if i not in rows]
+        with contextlib.closing(_completed(client, _row_of, todo, build, row, alone=alone)) as completed:
             for i, future in completed:
-                if alone or not _is_killed(future):
-                    is_error = future.status == "error"
-                    rows[i] = _row_of_error(jobs[i].name, future.exception(), row) if is_error else future.result()
+                error = future.exception() if future.status == "error" else None
+                if alone or not isinstance(error, distributed.KilledWorker):
+                    rows[i] = _row_of_error(jobs[i].name, error, row) if error else future.result()
                     told.add(1, rows[i].status != "built")
-    return rows
+    in_order = [rows[i] for i in sorted(rows)]
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([row._fields, *in_order])
+    _write(file, text.getvalue())
+    return in_order
 
 
 class _Told:
@@ -647,15 +631,6 @@ def _together(kind: str, answers: list[Any]) -> Any:
     begins = np.cumsum([0] + [len(answer.face) for answer in answers])
     offsets = [answer.offsets[:-1] + begin for answer, begin in zip(answers, begins)]
     return AllHits(np.concatenate([*offsets, begins[-1:]]), *columns[1:])
-
-
-def _reported(file: pathlib.Path, rows: Mapping[int, _AnyRow], row: type[_AnyRow]) -> list[_AnyRow]:
-    """The rows in their order, which are written to the file, too."""
-    in_order: list[_AnyRow] = [rows[i] for i in sorted(rows)]
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows([row._fields, *in_order])
-    _write(file, text.getvalue())
-    return in_order
 
 
 def _write(path: pathlib.Path, text: str) -> None:
