@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "prohull/detail/finite.h"
 #include "prohull/detail/text.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_query.h"
-#include "view/blocks.h"
 #include "view/facts.h"
 #include "view/grid.h"
 #include "view/heat.h"
@@ -33,16 +31,10 @@ TriangleMesh drawable(const TriangleMesh& mesh, const std::string& name) {
   return finite;
 }
 
-TriangleMesh all_of(const Pieces& pieces) {
-  TriangleMesh all;
-  for (const TriangleMesh& piece : pieces) append(all, piece);
-  return all;
-}
-
 /// What is drawn lies in it.
 struct BoxOf {
   Box operator()(const TriangleMesh& mesh) const { return finite_bounding_box(mesh); }
-  Box operator()(const Pieces& pieces) const { return finite_bounding_box(all_of(pieces)); }
+  Box operator()(const Pieces& pieces) const { return finite_bounding_box(together(pieces)); }
   Box operator()(const ProgressiveHull& hull) const {
     Box box;
     for (const Vec3& p : hull.positions()) box.extend(p);
@@ -123,7 +115,7 @@ class Writer {
   }
 
   json object(const Shown& shown, const Pieces& pieces) {
-    const TriangleMesh all = all_of(pieces), mesh = drawable(all, shown.name);
+    const TriangleMesh all = together(pieces), mesh = drawable(all, shown.name);
     json facts = mesh_object(all, mesh);
     facts["union"] = counted(pieces.size(), "piece");
     if (!reference_) return facts;

@@ -10,6 +10,7 @@
 #include "prohull/detail/rounded.h"
 #include "prohull/error.h"
 #include "robot/hulls/budgets.h"
+#include "robot/motion/kinematics.h"
 #include "robot/motion/motion.h"
 #include "robot/motion/motion_certificate.h"
 #include "robot/motion/path_proof.h"
@@ -162,15 +163,6 @@ std::string verdict_text(const PathOptions& options, const Decision& decision, s
                      time_text(path, path.time_at(first->end)), pair_name(decision, *first), until, undecided);
 }
 
-/// "joint1 0.5, joint2 -1", of the joints that move freely
-std::string positions_text(const Robot& robot, std::span<const double> positions) {
-  std::string text;
-  for (std::size_t j = 0; j < positions.size(); ++j)
-    if (robot.joints[j].type != JointType::Fixed)
-      text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", robot.joints[j].name, positions[j]);
-  return text;
-}
-
 /// Where the joints rest that the path does not name and that no other joint moves.
 std::string rest_text(const Robot& robot, const JointPath& path) {
   std::vector<std::string> names;
@@ -223,8 +215,7 @@ nlohmann::json facts(const Decision& decision, const JointPath& path, const Path
                       {"witness", nullptr}};
   if (pair.positions.empty()) return json;
   nlohmann::json& witness = json["witness"];
-  for (std::size_t j = 0; j < robot.joints.size(); ++j)
-    if (robot.joints[j].type != JointType::Fixed) witness["positions"][robot.joints[j].name] = pair.positions[j];
+  for (const auto& [name, position] : named_positions(robot, pair.positions)) witness["positions"][name] = position;
   witness["time"] = path.time_at(pair.end);
   witness["parts"] = {pair.part_a, pair.part_b};
   witness["faces"] = {index(pair.faces.a), index(pair.faces.b)};

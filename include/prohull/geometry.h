@@ -41,6 +41,8 @@ struct Ray {
 /// Counter-clockwise seen from outside.
 struct Triangle {
   Vec3 a, b, c;
+
+  bool operator==(const Triangle&) const = default;
 };
 
 /// Axis-parallel, closed; empty as constructed.

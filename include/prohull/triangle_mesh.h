@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "prohull/detail/ids.h"
 #include "prohull/geometry.h"
@@ -25,6 +26,9 @@ struct TriangleMesh {
 
 /// Adds the vertices and triangles of `part` after those of `mesh`.
 void append(TriangleMesh& mesh, const TriangleMesh& part);
+
+/// All parts, one after the other, as one mesh.
+TriangleMesh together(const std::vector<TriangleMesh>& parts);
 
 /// The bounding box of the vertices that triangles use.
 Box bounding_box(const TriangleMesh& mesh);

@@ -9,6 +9,7 @@
 #include "module.h"
 #include "prohull/error.h"
 #include "robot/files/robot_file.h"
+#include "robot/motion/kinematics.h"
 #include "robot/motion/motion.h"
 #include "robot/motion/path_proof.h"
 #include "watch.h"
@@ -47,10 +48,9 @@ std::shared_ptr<PathChecker> checker_of(const std::shared_ptr<RobotFile>& file,
 }
 
 py::dict facts_of(const PathChecker& checker, const JointPath& path, const PathPairProof& pair) {
-  const Robot& robot = checker.file->robot;
   py::dict positions, facts;
-  for (std::size_t j = 0; j < pair.positions.size(); ++j)
-    if (robot.joints[j].type != JointType::Fixed) positions[py::str(robot.joints[j].name)] = pair.positions[j];
+  for (const auto& [name, position] : named_positions(checker.file->robot, pair.positions))
+    positions[py::str(name)] = position;
   facts["a"] = checker.made.bodies[pair.a].name;
   facts["b"] = checker.made.bodies[pair.b].name;
   facts["verdict"] = std::string(name_of(pair.verdict));

@@ -8,9 +8,7 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -24,6 +22,7 @@
 #include "robot/hulls/link_hulls.h"
 #include "robot/hulls/write_robot.h"
 #include "robot/motion/bodies.h"
+#include "robot/motion/kinematics.h"
 #include "robot/motion/motion.h"
 #include "robot/motion/mujoco_files.h"
 #include "robot/report/pictures.h"
@@ -243,8 +242,7 @@ py::tuple check_of(const SharedFile& file, double allow, unsigned threads, const
 
 py::tuple facts_of(const Robot& robot, const PairProof& proof) {
   py::dict positions;
-  for (std::size_t j = 0; j < proof.positions.size(); ++j)
-    if (robot.joints[j].type != JointType::Fixed) positions[py::str(robot.joints[j].name)] = proof.positions[j];
+  for (const auto& [name, position] : named_positions(robot, proof.positions)) positions[py::str(name)] = position;
   return py::make_tuple(std::string(name_of(proof.verdict)), proof.why, proof.proven_free, proof.cells, positions);
 }
 

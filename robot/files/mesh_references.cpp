@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
+#include "prohull/detail/extension.h"
 #include "prohull/error.h"
 
 namespace fs = std::filesystem;
@@ -19,12 +19,6 @@ namespace prohull::robot {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
-}
 
 std::ifstream opened(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -103,7 +97,7 @@ std::vector<FileReference> references_in_mtl(const fs::path& file, const FindFil
   constexpr std::array<std::string_view, 6> kMaps{"map_", "bump", "disp", "decal", "refl", "norm"};
   std::vector<FileReference> found;
   for_each_line(file, [&](std::string_view key, const Words& rest, std::size_t line) {
-    const std::string lower = lower_case(key);
+    const std::string lower = lower_case(std::string(key));
     if (!rest.is_empty() && std::ranges::any_of(kMaps, [&](std::string_view map) { return lower.starts_with(map); }))
       found.push_back(image_of(rest, line, find));
   });
@@ -210,10 +204,8 @@ void add_glb_sizes(const fs::path& file, std::vector<XmlEdit>& edits) {
 
 }  // namespace
 
-std::string lower_suffix(const fs::path& file) { return lower_case(file.extension().string()); }
-
 std::vector<FileReference> references_in(const fs::path& file, const FindFile& find) {
-  const std::string suffix = lower_suffix(file);
+  const std::string suffix = lower_case_extension(file);
   if (suffix == ".obj") return references_in_obj(file, find);
   if (suffix == ".mtl") return references_in_mtl(file, find);
   if (suffix == ".dae") return references_in_dae(file, find);
@@ -224,7 +216,7 @@ std::vector<FileReference> references_in(const fs::path& file, const FindFile& f
 
 std::vector<XmlEdit> renamed(const fs::path& file, std::span<const FileReference> references,
                              std::span<const std::string> names) {
-  const std::string suffix = lower_suffix(file), quote = suffix == ".gltf" || suffix == ".glb" ? "\"" : "";
+  const std::string suffix = lower_case_extension(file), quote = suffix == ".gltf" || suffix == ".glb" ? "\"" : "";
   std::vector<XmlEdit> edits;
   for (std::size_t i = 0; i < references.size(); ++i)
     if (references[i].name != names[i]) edits.push_back({references[i].where, quote + names[i] + quote});

@@ -31,7 +31,4 @@ std::vector<FileReference> references_in(const std::filesystem::path& file, cons
 std::vector<XmlEdit> renamed(const std::filesystem::path& file, std::span<const FileReference> references,
                              std::span<const std::string> names);
 
-/// The suffix in lower case: ".obj" of LINK.OBJ.
-std::string lower_suffix(const std::filesystem::path& file);
-
 }  // namespace prohull::robot

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <optional>
 
+#include "prohull/detail/extension.h"
 #include "prohull/error.h"
 #include "robot/files/xml.h"
 
@@ -137,11 +137,8 @@ bool is_in(const fs::path& file, const fs::path& folder) {
 
 /// Files of these formats name no other files that are read.
 bool stands_alone(const fs::path& mesh) {
-  std::string name = mesh.filename().string();
-  std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (name.ends_with(".gz")) name.resize(name.size() - 3);
   constexpr std::array<std::string_view, 7> kAlone{".stl", ".obj", ".ply", ".off", ".glb", ".dae", ".msh"};
-  return std::ranges::any_of(kAlone, [&](std::string_view suffix) { return name.ends_with(suffix); });
+  return std::ranges::find(kAlone, lower_case_extension(without_gz(mesh))) != kAlone.end();
 }
 
 std::optional<char> byte_of_hex(std::string_view digits) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "prohull/detail/extension.h"
 #include "prohull/error.h"
 #include "robot/files/xml.h"
 #include "robot/transform.h"
@@ -133,8 +134,7 @@ class MjcfPieces {
 };
 
 void require_mujoco_reads(const std::string& uri) {
-  std::string suffix = std::filesystem::path(uri).extension().string();
-  std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string suffix = lower_case_extension(uri);
   if (suffix != ".stl" && suffix != ".obj")
     refuse(fmt::format("{}: MuJoCo reads no such files; write the pieces as STL or OBJ", uri));
   if (uri.find("://") != std::string::npos) refuse(fmt::format("{}: MuJoCo reads paths, but no URIs", uri));

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <utility>
 
+#include "prohull/detail/extension.h"
 #include "prohull/detail/missing_file.h"
 #include "prohull/error.h"
 #include "robot/files/mesh_references.h"
@@ -50,7 +51,7 @@ bool is_usd(const fs::path& path, std::string_view text) {
   constexpr std::array<std::string_view, 3> kMagics{"#usda", "PXR-USDC", "PK\x03\x04"};
   constexpr std::array<std::string_view, 4> kSuffixes{".usd", ".usda", ".usdc", ".usdz"};
   return std::ranges::any_of(kMagics, [&](std::string_view magic) { return text.starts_with(magic); }) ||
-         std::ranges::find(kSuffixes, lower_suffix(path)) != kSuffixes.end();
+         std::ranges::find(kSuffixes, lower_case_extension(path)) != kSuffixes.end();
 }
 
 /// Whether it may be XML: it begins with "<", or is UTF-16.

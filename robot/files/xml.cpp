@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <memory>
 
+#include "prohull/detail/extension.h"
 #include "prohull/error.h"
 
 namespace prohull::robot {
@@ -261,9 +261,7 @@ std::string edited_text(const XmlDocument& document, std::vector<XmlEdit> edits)
 }
 
 bool is_utf8(const XmlDocument& document) {
-  std::string encoding = document.encoding();
-  std::ranges::transform(encoding, encoding.begin(), [](unsigned char c) { return std::tolower(c); });
-  return encoding.empty() || encoding == "utf-8";
+  return document.encoding().empty() || lower_case(document.encoding()) == "utf-8";
 }
 
 std::string xml_escaped(std::string_view text) {

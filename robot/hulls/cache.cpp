@@ -8,7 +8,9 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -52,38 +54,29 @@ json json_of(std::span<const LinkHull> hulls) {
   return {{"hulls", list}};
 }
 
-/// What a file of the cache says that is not as keep() writes it.
-struct Unusable {};
-
-/// Any JSON value may stand where a member is asked for.
-const json& member(const json& object, const char* name) {
-  const auto found = object.is_object() ? object.find(name) : object.end();
-  if (found == object.end()) throw Unusable();
-  return *found;
-}
+/// What a file of the cache says that is not as keep() writes it. Other such files make nlohmann's accessors throw.
+struct Unusable : std::exception {};
 
 const json& list_of(const json& value) { return value.is_array() ? value : throw Unusable(); }
 
 double number_of(const json& value) {
-  if (!value.is_number() || !std::isfinite(value.get<double>())) throw Unusable();
-  return value.get<double>();
+  const auto number = value.get<double>();
+  return std::isfinite(number) ? number : throw Unusable();
 }
 
 std::size_t count_of(const json& value) {
   return value.is_number_unsigned() ? value.get<std::size_t>() : throw Unusable();
 }
 
-bool truth_of(const json& value) { return value.is_boolean() ? value.get<bool>() : throw Unusable(); }
-
 /// Empty of pieces and balls.
 std::string source_of(const json& value) {
-  const std::string name = value.is_string() ? value.get<std::string>() : throw Unusable();
+  const auto name = value.get<std::string>();
   return name.empty() || value_of(source_names(), name) ? name : throw Unusable();
 }
 
 TriangleMesh mesh_of(const json& mesh) {
   TriangleMesh result;
-  const json &positions = list_of(member(mesh, "positions")), &triangles = list_of(member(mesh, "triangles"));
+  const json &positions = list_of(mesh.at("positions")), &triangles = list_of(mesh.at("triangles"));
   if (positions.size() % 3 != 0 || triangles.size() % 3 != 0 || triangles.empty()) throw Unusable();
   for (std::size_t i = 0; i < positions.size(); i += 3)
     result.positions.push_back({number_of(positions[i]), number_of(positions[i + 1]), number_of(positions[i + 2])});
@@ -103,16 +96,16 @@ Ball ball_of(const json& numbers) {
 
 LinkHull hull_of(const json& hull) {
   LinkHull result;
-  result.target_faces = count_of(member(hull, "target_faces"));
-  for (const json& piece : list_of(member(hull, "pieces"))) result.pieces.push_back(mesh_of(piece));
-  for (const json& ball : list_of(member(hull, "balls"))) result.balls.push_back(ball_of(ball));
-  const json& mesh = member(hull, "mesh");
+  result.target_faces = count_of(hull.at("target_faces"));
+  for (const json& piece : list_of(hull.at("pieces"))) result.pieces.push_back(mesh_of(piece));
+  for (const json& ball : list_of(hull.at("balls"))) result.balls.push_back(ball_of(ball));
+  const json& mesh = hull.at("mesh");
   if (!mesh.is_null()) result.mesh = mesh_of(mesh);
-  result.target_reached = truth_of(member(hull, "target_reached"));
-  result.within_bounds = truth_of(member(hull, "within_bounds"));
-  result.source = source_of(member(hull, "source"));
-  result.padding = number_of(member(hull, "padding"));
-  if (const std::size_t notes = count_of(member(hull, "notes")); notes > 0)
+  result.target_reached = hull.at("target_reached").get<bool>();
+  result.within_bounds = hull.at("within_bounds").get<bool>();
+  result.source = source_of(hull.at("source"));
+  result.padding = number_of(hull.at("padding"));
+  if (const std::size_t notes = count_of(hull.at("notes")); notes > 0)
     result.notes.push_back(fmt::format("it is from the cache: {} told only when it is built anew",
                                        counted(notes, "note on its construction is", "notes on its construction are")));
   return result;
@@ -120,7 +113,7 @@ LinkHull hull_of(const json& hull) {
 
 std::vector<LinkHull> hulls_of(const json& hulls) {
   std::vector<LinkHull> result;
-  for (const json& hull : list_of(member(hulls, "hulls"))) result.push_back(hull_of(hull));
+  for (const json& hull : list_of(hulls.at("hulls"))) result.push_back(hull_of(hull));
   return result;
 }
 
@@ -196,6 +189,14 @@ std::string hash_of_file(const path& file) {
   return in.eof() ? text_of(*state) : "";
 }
 
+bool have_same_bytes(const path& a, const path& b) {
+  std::error_code error;
+  if (std::filesystem::file_size(a, error) != std::filesystem::file_size(b, error)) return false;
+  std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
+  using Bytes = std::istreambuf_iterator<char>;
+  return first && second && std::equal(Bytes(first), Bytes(), Bytes(second), Bytes());
+}
+
 const std::string& program_fingerprint() {
   static const std::string text = [] {
     Dl_info info{};
@@ -250,7 +251,7 @@ std::optional<std::vector<LinkHull>> HullCache::find(std::string_view key) const
   if (!content) return std::nullopt;
   try {
     return hulls_of(json::parse(*content, nullptr, false));
-  } catch (const Unusable&) {
+  } catch (const std::exception&) {
     return std::nullopt;
   }
 }

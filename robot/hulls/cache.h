@@ -33,6 +33,9 @@ class Fingerprint {
 /// file that has changed, but is not safe against those who look for two with the same.
 std::string hash_of_file(const std::filesystem::path& path);
 
+/// Whether both files can be read and have the same content.
+bool have_same_bytes(const std::filesystem::path& a, const std::filesystem::path& b);
+
 /// The fingerprint of the program, or of the Python module, that this code is a part of: another version may make other
 /// hulls.
 const std::string& program_fingerprint();

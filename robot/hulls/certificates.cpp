@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <limits>
 #include <set>
 #include <string_view>
 
 #include "prohull/certificate.h"
+#include "prohull/detail/extension.h"
 #include "prohull/detail/finite.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
@@ -23,9 +23,7 @@ using std::filesystem::path;
 
 bool is_read_by_checkers(const path& file) {
   constexpr std::array<std::string_view, 4> kSuffixes{".stl", ".obj", ".ply", ".off"};
-  std::string suffix = file.extension().string();
-  std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return std::tolower(c); });
-  return std::ranges::find(kSuffixes, suffix) != kSuffixes.end();
+  return std::ranges::find(kSuffixes, lower_case_extension(file)) != kSuffixes.end();
 }
 
 /// The mesh file that has the triangles of a link but for its scale; nullptr if there is none.

@@ -7,6 +7,8 @@
 #include <set>
 #include <string>
 
+#include "prohull/detail/extension.h"
+
 namespace prohull::robot {
 
 /// Names of files, distinct also where upper and lower case are the same, of letters, digits and _-. alone. File
@@ -20,17 +22,13 @@ class FileNames {
     if (name.empty() || name[0] == '.') name.insert(0, 1, '_');
     if (name.size() > kLongest) name.resize(kLongest);
     std::string distinct = name + suffix;
-    for (int i = 2; !taken_.insert(lower(distinct)).second; ++i) distinct = fmt::format("{}_{}{}", name, i, suffix);
+    for (int i = 2; !taken_.insert(lower_case(distinct)).second; ++i)
+      distinct = fmt::format("{}_{}{}", name, i, suffix);
     return distinct;
   }
 
  private:
   static constexpr std::size_t kLongest = 100;
-
-  static std::string lower(std::string name) {
-    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
-    return name;
-  }
 
   std::set<std::string> taken_;
 };

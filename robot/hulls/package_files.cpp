@@ -6,11 +6,12 @@
 #include <array>
 #include <cctype>
 #include <fstream>
-#include <iterator>
 #include <string_view>
 #include <utility>
 
+#include "prohull/detail/extension.h"
 #include "prohull/error.h"
+#include "robot/hulls/cache.h"
 
 namespace fs = std::filesystem;
 
@@ -28,28 +29,20 @@ bool is_image(std::string_view suffix) {
 bool is_shown(const fs::path& file) {
   constexpr std::array<std::string_view, 12> kMeshes{".msh",  ".stl", ".obj", ".ply", ".off", ".dae",
                                                      ".gltf", ".glb", ".3mf", ".fbx", ".gz",  ".mesh"};
-  const std::string suffix = lower_suffix(file);
+  const std::string suffix = lower_case_extension(file);
   return is_image(suffix) || std::ranges::find(kMeshes, suffix) != kMeshes.end();
 }
 
 /// Whether a mesh or material file may name such a file. No such file names one of the first kind again.
 bool goes_with(const fs::path& file, const fs::path& companion) {
-  const std::string suffix = lower_suffix(companion);
-  return lower_suffix(file) == ".obj" ? suffix == ".mtl" : suffix == ".bin" || is_image(suffix);
+  const std::string suffix = lower_case_extension(companion);
+  return lower_case_extension(file) == ".obj" ? suffix == ".mtl" : suffix == ".bin" || is_image(suffix);
 }
 
 /// Whether the file is one of a robot, whose own files are not copied. Files of MJCF are called as other XML is.
-bool is_description(const fs::path& file) { return is_robot_file(file) && lower_suffix(file) != ".xml"; }
+bool is_description(const fs::path& file) { return is_robot_file(file) && lower_case_extension(file) != ".xml"; }
 
 bool can_be_read(const fs::path& file) { return std::ifstream(file, std::ios::binary).is_open(); }
-
-bool have_same_bytes(const fs::path& a, const fs::path& b) {
-  std::error_code error;
-  if (fs::file_size(a, error) != fs::file_size(b, error)) return false;
-  std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
-  using Bytes = std::istreambuf_iterator<char>;
-  return std::equal(Bytes(first), Bytes(), Bytes(second), Bytes());
-}
 
 bool is_same(const XmlEdit& a, const XmlEdit& b) {
   return a.replaced.begin == b.replaced.begin && a.replaced.end == b.replaced.end && a.text == b.text;

@@ -1,7 +1,8 @@
 #include "robot/motion/kinematics.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <numeric>
 
 #include "robot/motion/joint_limits.h"
 #include "robot/transform.h"
@@ -30,6 +31,20 @@ Pose motion_of(const Joint& joint, double position) {
 Pose joint_pose(const Joint& joint, double position) {
   const Pose turned = composed(motion_of(joint, position), translation_by(-joint.anchor));
   return composed(joint.origin, composed(translation_by(joint.anchor), turned));
+}
+
+std::vector<std::pair<std::string, double>> named_positions(const Robot& robot, std::span<const double> positions) {
+  std::vector<std::pair<std::string, double>> named;
+  for (std::size_t j = 0; j < positions.size(); ++j)
+    if (robot.joints[j].type != JointType::Fixed) named.emplace_back(robot.joints[j].name, positions[j]);
+  return named;
+}
+
+std::string positions_text(const Robot& robot, std::span<const double> positions) {
+  std::string text;
+  for (const auto& [name, position] : named_positions(robot, positions))
+    text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", name, position);
+  return text;
 }
 
 void follow(const Robot& robot, std::vector<double>& positions) {

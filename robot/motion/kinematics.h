@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "robot/model.h"
@@ -19,6 +21,12 @@ std::vector<Pose> link_poses(const Robot& robot, std::span<const double> positio
 /// Positions of all joints for pictures: Joint::rest, or the middle of the limits of a joint that cannot be there. The
 /// limits of joints that follow count, too.
 std::vector<double> rest_positions(const Robot& robot);
+
+/// The joints that are not fixed, by their names, with their positions; none where there are no positions.
+std::vector<std::pair<std::string, double>> named_positions(const Robot& robot, std::span<const double> positions);
+
+/// "joint1 0.5, joint2 -1"
+std::string positions_text(const Robot& robot, std::span<const double> positions);
 
 /// Sets the positions of all joints that mimic.
 void follow(const Robot& robot, std::vector<double>& positions);

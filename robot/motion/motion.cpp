@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <optional>
 
 #include "prohull/detail/finite.h"
 #include "prohull/detail/progress_meter.h"
@@ -239,12 +238,6 @@ bool visual_meets(const Robot& robot, const Bodies& bodies, const PairProof& pro
   return collide(CollisionIndex(a), poses[proof.a], CollisionIndex(b), poses[proof.b]);
 }
 
-std::size_t sum(const std::vector<MotionPair>& pairs, std::size_t MotionPair::*count) {
-  std::size_t total = 0;
-  for (const MotionPair& pair : pairs) total += pair.*count;
-  return total;
-}
-
 }  // namespace
 
 std::string_view name_of(PairKind kind) {
@@ -254,9 +247,11 @@ std::string_view name_of(PairKind kind) {
 
 bool is_sampled(PairKind kind) { return kind == PairKind::Always || kind == PairKind::Never; }
 
-std::size_t MotionResult::false_hull() const { return sum(pairs, &MotionPair::false_hull); }
-std::size_t MotionResult::false_convex() const { return sum(pairs, &MotionPair::false_convex); }
-std::size_t MotionResult::missed() const { return sum(pairs, &MotionPair::missed); }
+std::size_t MotionResult::sum(std::size_t MotionPair::*count) const {
+  std::size_t total = 0;
+  for (const MotionPair& pair : pairs) total += pair.*count;
+  return total;
+}
 
 MotionResult check_motion(const Robot& robot, const Bodies& bodies, const MotionOptions& options) {
   return Motion(robot, bodies, options).run();

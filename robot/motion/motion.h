@@ -3,10 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "prohull/progress.h"
@@ -76,9 +74,10 @@ struct MotionResult {
   /// something is known.
   std::size_t visual_configurations = 0, hull_configurations = 0, convex_configurations = 0;
 
-  std::size_t false_hull() const;  ///< sums over the pairs
-  std::size_t false_convex() const;
-  std::size_t missed() const;
+  std::size_t sum(std::size_t MotionPair::*count) const;  ///< over the pairs
+  std::size_t false_hull() const { return sum(&MotionPair::false_hull); }
+  std::size_t false_convex() const { return sum(&MotionPair::false_convex); }
+  std::size_t missed() const { return sum(&MotionPair::missed); }
 };
 
 /// Moves the robot at random and counts which pairs of links collide. The counts are the same for any number of

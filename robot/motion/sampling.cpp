@@ -4,24 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "prohull/detail/scramble.h"
 #include "robot/motion/joint_limits.h"
 #include "robot/motion/kinematics.h"
 
 namespace prohull::robot {
 namespace {
-
-/// A well mixed function of its argument, the same everywhere (splitmix64).
-std::uint64_t scrambled(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-  return x ^ (x >> 31);
-}
-
-/// Uniform in [0, 1).
-double unit_random(std::uint64_t seed, std::uint64_t number, std::uint64_t joint) {
-  return static_cast<double>(scrambled(scrambled(scrambled(seed) + number) + joint) >> 11) * 0x1p-53;
-}
 
 double random_turn(const Joint& joint, double unit) {
   if (std::isfinite(joint.lower) && std::isfinite(joint.upper)) return std::lerp(joint.lower, joint.upper, unit);
@@ -110,7 +98,8 @@ std::vector<double> random_positions(const Robot& robot, std::uint64_t seed, std
   std::vector<double> positions(robot.joints.size());
   const std::vector<JointRange> allowed = allowed_ranges(robot);
   for (std::size_t j = 0; j < positions.size(); ++j)
-    positions[j] = random_position(within(robot.joints[j], allowed[j]), unit_random(seed, number, j));
+    positions[j] =
+        random_position(within(robot.joints[j], allowed[j]), unit_random(scramble(scramble(seed) + number) + j));
   follow(robot, positions);
   return positions;
 }

@@ -148,8 +148,7 @@ class Workspace {
   Zone of_few_pieces(Zone zone) const {
     constexpr std::size_t kHullFaces = 1000;
     if (zone.pieces.size() <= options_.max_pieces) return zone;
-    TriangleMesh all;
-    for (const TriangleMesh& piece : zone.pieces) append(all, piece);
+    const TriangleMesh all = together(zone.pieces);
     EnclosingOptions how;
     how.hull.threads = options_.threads;
     how.progress = options_.progress;

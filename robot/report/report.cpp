@@ -10,12 +10,14 @@
 #include <ctime>
 #include <set>
 
+#include "prohull/detail/extension.h"
 #include "prohull/error.h"
 #include "robot/files/mesh_references.h"
 #include "robot/files/packages.h"
 #include "robot/files/xml.h"
 #include "robot/hulls/cache.h"
 #include "robot/motion/joint_limits.h"
+#include "robot/motion/kinematics.h"
 #include "robot/report/report_facts.h"
 #include "robot/report/verdict_facts.h"
 
@@ -146,9 +148,8 @@ Json links_of(const ReportInput& input) {
 Json witness_of(const PairProof& proof, const Robot& robot) {
   if (proof.positions.empty()) return {};
   Json positions = Json::object();
-  for (std::size_t j = 0; j < robot.joints.size(); ++j)
-    if (robot.joints[j].type != JointType::Fixed)
-      positions[clean_text(robot.joints[j].name)] = number(proof.positions[j]);
+  for (const auto& [name, position] : named_positions(robot, proof.positions))
+    positions[clean_text(name)] = number(position);
   return {{"positions", positions}, {"faces", {std::size_t(proof.faces.a), std::size_t(proof.faces.b)}}};
 }
 
@@ -321,7 +322,7 @@ std::vector<Suite> suites_of(const ReportInput& input) {
 }
 
 void add_mesh(const std::filesystem::path& mesh, const Packages& packages, std::set<std::filesystem::path>& files) {
-  if (!files.insert(mesh).second || lower_suffix(mesh) != ".gltf") return;
+  if (!files.insert(mesh).second || lower_case_extension(mesh) != ".gltf") return;
   try {
     for (const FileReference& reference : references_in(
              mesh, [&](const std::string& name) { return packages.find_description(name, mesh.parent_path()).path; }))

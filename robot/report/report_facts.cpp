@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "prohull/detail/rounded.h"
+#include "robot/motion/kinematics.h"
 
 namespace prohull::robot {
 namespace {
@@ -282,12 +283,7 @@ std::string finding_text(const PairProof& finding, const Robot& robot) {
     case PairVerdict::Meets:
       break;
   }
-  std::string positions;
-  for (std::size_t j = 0; j < robot.joints.size(); ++j)
-    if (robot.joints[j].type != JointType::Fixed)
-      positions += fmt::format("{}{} {:.6g}", positions.empty() ? "" : ", ", clean_text(robot.joints[j].name),
-                               finding.positions[j]);
-  return "meets at " + positions;
+  return "meets at " + clean_text(positions_text(robot, finding.positions));
 }
 
 std::string verdict_text(const DisabledCheck& check, const Robot& robot) {

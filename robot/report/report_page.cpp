@@ -269,8 +269,8 @@ std::string marks(const ReportInput& input) {
 // ---------------------------------------------------------------------------------------------------------------------
 // Links
 
-Cell certificate(const LinkHull& hull) {
-  return hull.certified() ? Cell("✓ certified", "good") : Cell("✕ not certified", "bad");
+Cell certificate(bool is_certified) {
+  return is_certified ? Cell("✓ certified", "good") : Cell("✕ not certified", "bad");
 }
 
 Cell verdict(const LinkCheck& check, double allow) {
@@ -302,7 +302,7 @@ std::string part_ratio_text(const LinkHull& hull, const LinkHulls& link) {
 std::vector<Cell> hull_cells(const LinkHulls* hulls) {
   const LinkHull* const hull = hulls ? first_hull(*hulls) : nullptr;
   if (!hull) return {hulls ? words_for(hulls->status) : kDash, "", "", "", "", ""};
-  return {is_certified(*hulls) ? Cell("✓ certified", "good") : Cell("✕ not certified", "bad"),
+  return {certificate(is_certified(*hulls)),
           grouped(hulls->triangles.face_count()),
           hulls->collision == Collision::Hull ? grouped(hull->mesh.face_count()) : size_text(*hull),
           part_ratio_text(*hull, *hulls),
@@ -392,7 +392,8 @@ std::vector<Fact> facts(const LinkHulls* link, std::span<const LinkHull> hulls, 
   const auto unknown = [](const auto&) { return kDash; };
   const auto range = [](const DistanceBounds& bounds) { return range_text(bounds.lower, bounds.upper); };
   const auto times = [](double volume, double of) { return ratio_text(ratio(volume, of)); };
-  return {{true, "Encloses the geometry", certificate, [=](Check c) { return verdict(c, allow); }},
+  return {{true, "Encloses the geometry", [](Hull h) { return certificate(h.certified()); },
+           [=](Check c) { return verdict(c, allow); }},
           {has_check, "Geometry sticks out by", [](Hull h) { return h.certified() ? "0 mm" : "?"; }, sticks_out},
           {true, "Faces", [=](Hull h) { return faces_of(h, link->collision); },
            [](Check c) { return count_in(c.collision_faces, c.pieces > 1 ? counted(c.pieces, "piece") : ""); }},
@@ -491,11 +492,9 @@ std::string facts_line(const LinkHulls& hulls) {
 
 std::string badge(const ReportInput& input, std::size_t link) {
   const LinkHulls* const hulls = hulls_of(input, link);
-  if (hulls && first_hull(*hulls))
-    return is_certified(*hulls) ? "<span class=\"badge good\">✓ certified</span>"
-                                : "<span class=\"badge bad\">✕ not certified</span>";
-  if (hulls) return fmt::format("<span class=\"badge muted\">{}</span>", words_for(hulls->status));
-  const Cell cell = verdict(*check_of(input, link), input.allow);
+  const Cell cell = !hulls               ? verdict(*check_of(input, link), input.allow)
+                    : first_hull(*hulls) ? certificate(is_certified(*hulls))
+                                         : Cell(words_for(hulls->status), "muted");
   return fmt::format("<span class=\"badge {}\">{}</span>", cell.kind, cell.text);
 }
 
@@ -536,23 +535,17 @@ Cell missed_cell(std::size_t missed) {
   return missed == 0 ? Cell("✓ 0", "good") : Cell(fmt::format("✕ {}", grouped(missed)), "bad");
 }
 
-std::size_t sum(const MotionResult& motion, std::size_t MotionPair::*count) {
-  std::size_t total = 0;
-  for (const MotionPair& pair : motion.pairs) total += pair.*count;
-  return total;
-}
-
 std::string time_text(double microseconds) {
   return microseconds > 0 && std::isfinite(microseconds) ? fmt::format("{:.1f} µs", microseconds) : kDash;
 }
 
 std::string motion_summary(const MotionResult& m, const std::string& head) {
   const std::string rows =
-      row("Visual geometry", {grouped(m.visual_configurations), grouped(sum(m, &MotionPair::visual)), kDash, kDash,
+      row("Visual geometry", {grouped(m.visual_configurations), grouped(m.sum(&MotionPair::visual)), kDash, kDash,
                               time_text(m.visual_us)}) +
-      row("Convex hulls", {grouped(m.convex_configurations), grouped(sum(m, &MotionPair::convex)),
+      row("Convex hulls", {grouped(m.convex_configurations), grouped(m.sum(&MotionPair::convex)),
                            grouped(m.false_convex()), kDash, kDash}) +
-      row(head, {grouped(m.hull_configurations), grouped(sum(m, &MotionPair::hull)), grouped(m.false_hull()),
+      row(head, {grouped(m.hull_configurations), grouped(m.sum(&MotionPair::hull)), grouped(m.false_hull()),
                  missed_cell(m.missed()), time_text(m.hull_us)});
   return table("",
                {"Checked with", "Configurations in collision", "Pairs in collision", "False collisions",

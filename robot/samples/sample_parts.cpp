@@ -193,12 +193,6 @@ TriangleMesh at(const Vec3& translation, const Vec3& rpy, TriangleMesh mesh) {
   return placed(pose_of_rpy(rpy, translation), std::move(mesh));
 }
 
-TriangleMesh together(const std::vector<TriangleMesh>& parts) {
-  TriangleMesh mesh;
-  for (const TriangleMesh& part : parts) append(mesh, part);
-  return mesh;
-}
-
 TriangleMesh rounded_to_float32(TriangleMesh mesh) {
   for (Vec3& p : mesh.positions)
     for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<double>(static_cast<float>(p[axis]));

@@ -58,11 +58,6 @@ TriangleMesh inside_out(TriangleMesh mesh);
 /// In the pose, with a rotation by roll, pitch and yaw.
 TriangleMesh at(const Vec3& translation, const Vec3& rpy, TriangleMesh mesh);
 
-TriangleMesh together(const std::vector<TriangleMesh>& parts);
-
-/// The mesh with the coordinates that STL files keep.
-TriangleMesh rounded_to_float32(TriangleMesh mesh);
-
 /// The convex hull, grown by 0.2 % from the middle of its box, so that rounding leaves nothing outside.
 TriangleMesh loose_convex_hull(const TriangleMesh& mesh);
 

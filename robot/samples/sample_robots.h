@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,5 +29,8 @@ struct SampleRobot {
 /// inside out. Its collision geometry is as robots ship it: coarse meshes, convex hulls and primitives, some of which
 /// leak by up to 2 mm (arm) or 8 mm (mobile-base). Throws InputError(InvalidOption) for an unknown name.
 SampleRobot make_sample_robot(std::string_view name);
+
+/// The mesh with the coordinates that STL files keep.
+TriangleMesh rounded_to_float32(TriangleMesh mesh);
 
 }  // namespace prohull::robot

@@ -39,6 +39,14 @@ bool is_line_of_names(TextScanner line) {
   return true;
 }
 
+/// Goes on to the first line of numbers; false if there is none.
+bool begin_numbers(TextScanner& scanner) {
+  if (!scanner.next_line()) return false;
+  if (!is_line_of_names(scanner)) return true;
+  scanner.skip_rest_of_line();
+  return scanner.next_line();
+}
+
 class CsvReader {
  public:
   CsvReader(std::string_view content, const std::string& file, const Columns& columns)
@@ -48,9 +56,7 @@ class CsvReader {
         row_(columns.names.size()) {}
 
   void read(const RowSink& sink) {
-    bool more = scanner_.next_line();
-    if (more && is_line_of_names(scanner_)) scanner_.skip_rest_of_line(), more = scanner_.next_line();
-    for (; more; more = scanner_.next_line()) {
+    for (bool more = begin_numbers(scanner_); more; more = scanner_.next_line()) {
       read_row();
       sink(row_, scanner_.place());
     }
@@ -80,10 +86,8 @@ class CsvReader {
 
 std::size_t numbers_per_line(std::string_view content, const std::string& file) {
   TextScanner scanner(content, file, {.comments = true, .separator = separator_of(content)});
-  bool more = scanner.next_line();
-  if (more && is_line_of_names(scanner)) scanner.skip_rest_of_line(), more = scanner.next_line();
   std::size_t numbers = 0;
-  if (more) do {
+  if (begin_numbers(scanner)) do {
       scanner.word(), ++numbers;
     } while (scanner.skip_separator() || !scanner.at_line_end());
   return numbers;

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "io/extension.h"
 #include "io/file_content.h"
 #include "io/mesh_readers.h"
+#include "prohull/detail/extension.h"
 #include "prohull/error.h"
 
 namespace prohull {

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <array>
 
-#include "io/extension.h"
 #include "io/imported_mesh.h"
+#include "prohull/detail/extension.h"
 
 namespace prohull {
 namespace {

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "io/byte_cursor.h"
-#include "io/extension.h"
 #include "io/file_content.h"
 #include "io/import_protocol.h"
 #include "io/mesh_builder.h"
-#include "io/run_program.h"
 #include "io/utf8.h"
+#include "prohull/detail/extension.h"
+#include "prohull/detail/run_program.h"
 
 namespace prohull {
 namespace {

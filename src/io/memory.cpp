@@ -7,9 +7,9 @@
 #include <fstream>
 #include <string>
 
-#include "io/extension.h"
 #include "io/mesh_readers.h"
 #include "io/ply_header.h"
+#include "prohull/detail/extension.h"
 #include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "prohull/triangle_mesh.h"

@@ -9,7 +9,6 @@
 #include <optional>
 #include <string>
 
-#include "io/extension.h"
 #include "io/file.h"
 #include "io/file_content.h"
 #include "io/file_unit.h"
@@ -18,6 +17,7 @@
 #include "io/mesh_writers.h"
 #include "io/place.h"
 #include "io/text_scanner.h"
+#include "prohull/detail/extension.h"
 #include "prohull/detail/memory.h"
 #include "prohull/error.h"
 #include "prohull/hull_file.h"

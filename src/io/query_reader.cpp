@@ -4,11 +4,11 @@
 #include <functional>
 #include <optional>
 
-#include "io/extension.h"
 #include "io/file_content.h"
 #include "io/npy_header.h"
 #include "io/number_table.h"
 #include "io/query_format.h"
+#include "prohull/detail/extension.h"
 #include "prohull/detail/query_io.h"
 
 namespace prohull {

@@ -7,11 +7,11 @@
 #include <variant>
 
 #include "io/append.h"
-#include "io/extension.h"
 #include "io/file.h"
 #include "io/npy_header.h"
 #include "io/query_format.h"
 #include "io/zip_writer.h"
+#include "prohull/detail/extension.h"
 #include "prohull/error.h"
 
 namespace prohull {

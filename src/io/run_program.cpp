@@ -1,9 +1,10 @@
-#include "io/run_program.h"
+#include "prohull/detail/run_program.h"
 
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -48,6 +49,32 @@ class Descriptor {
 /// A copy above the three standard ones, which a program that runs without them would otherwise get in the way of.
 int above_standard(int descriptor) { return fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1); }
 
+class MemoryFile {
+ public:
+  int number() const { return file_.number(); }
+
+  std::size_t size() const {
+    struct stat status {};
+    fstat(number(), &status);
+    return static_cast<std::size_t>(status.st_size);
+  }
+
+  std::string text() const {
+    std::string text(size(), '\0');
+    std::size_t size = 0;
+    while (size < text.size()) {
+      const ssize_t count = pread(number(), text.data() + size, text.size() - size, static_cast<off_t>(size));
+      if (count <= 0) break;
+      size += static_cast<std::size_t>(count);
+    }
+    text.resize(size);
+    return text;
+  }
+
+ private:
+  Descriptor file_{above_standard(Descriptor(memfd_create("prohull", MFD_CLOEXEC), "memfd_create").number()), "fcntl"};
+};
+
 void write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = write(descriptor, bytes.data(), bytes.size());
@@ -59,11 +86,15 @@ void write_all(int descriptor, std::string_view bytes) {
 /// What posix_spawn is told, freed in any case.
 class SpawnPlan {
  public:
-  SpawnPlan(int input, int output) {
+  /// `errors` may be nullptr.
+  SpawnPlan(int input, int output, const MemoryFile* errors) {
     posix_spawn_file_actions_init(&actions_);
     posix_spawn_file_actions_adddup2(&actions_, input, STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
-    posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    if (errors)
+      posix_spawn_file_actions_adddup2(&actions_, errors->number(), STDERR_FILENO);
+    else
+      posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_addclosefrom_np(&actions_, STDERR_FILENO + 1);
     posix_spawnattr_init(&attributes_);
     sigset_t signals;
@@ -87,7 +118,7 @@ class SpawnPlan {
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
-    return posix_spawn(&pid, program.c_str(), &actions_, &attributes_, argv.data(), environ);
+    return posix_spawnp(&pid, program.c_str(), &actions_, &attributes_, argv.data(), environ);
   }
 
  private:
@@ -144,8 +175,9 @@ ProgramResult run_program(const std::filesystem::path& program, const std::vecto
                           const std::function<void(double)>& wait) {
   using End = ProgramResult::End;
   constexpr std::size_t kChunk = std::size_t{1} << 16;
-  const Descriptor memory(memfd_create("prohull", MFD_CLOEXEC), "memfd_create");
-  const Descriptor stdin_file(above_standard(memory.number()), "fcntl");
+  const MemoryFile stdin_file;
+  std::optional<MemoryFile> errors;
+  if (limits.errors > 0) errors.emplace();
   write_all(stdin_file.number(), input);
   lseek(stdin_file.number(), 0, SEEK_SET);
   int ends[2];
@@ -155,20 +187,22 @@ ProgramResult run_program(const std::filesystem::path& program, const std::vecto
   low_write_end.close();
 
   pid_t pid = 0;
-  if (const int error = SpawnPlan(stdin_file.number(), write_end.number()).spawn(pid, program, arguments))
+  if (const int error = SpawnPlan(stdin_file.number(), write_end.number(), errors ? &*errors : nullptr)
+                            .spawn(pid, program, arguments))
     return {End::NotStarted, error, {}};
   Child child(pid);
   write_end.close();
 
   const auto start = Clock::now(), deadline = start + limits.time;
-  const auto may_go_on = [&] {
+  const auto limit_reached = [&]() -> std::optional<End> {
     const auto now = Clock::now();
     if (wait) wait(std::chrono::duration<double>(now - start) / limits.time);
-    return now < deadline;
+    if (now >= deadline) return End::TimedOut;
+    return errors && errors->size() > limits.errors ? std::optional(End::TooMuchOutput) : std::nullopt;
   };
   std::string output;
   while (true) {
-    if (!may_go_on()) return {End::TimedOut, 0, {}};
+    if (const auto end = limit_reached()) return {*end, 0, {}};
     if (!wait_for_output(read_end.number())) continue;
     const std::size_t size = output.size();
     output.resize(size + kChunk);
@@ -180,11 +214,12 @@ ProgramResult run_program(const std::filesystem::path& program, const std::vecto
   }
   for (std::chrono::milliseconds pause(1); !child.check_ended();
        pause = std::min(2 * pause, std::chrono::milliseconds(50))) {
-    if (!may_go_on()) return {End::TimedOut, 0, {}};
+    if (const auto end = limit_reached()) return {*end, 0, {}};
     std::this_thread::sleep_for(pause);
   }
   ProgramResult result = child.result(std::move(output));
   if (result.end == End::Signalled && (result.number == SIGINT || result.number == SIGTERM)) throw Cancelled();
+  if (errors) result.errors = errors->text();
   return result;
 }
 

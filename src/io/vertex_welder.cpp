@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <bit>
 
+#include "prohull/detail/scramble.h"
+
 namespace prohull {
 namespace {
 
-/// The finalizer of SplitMix64 after each coordinate.
 std::uint64_t hash(const Vec3& position) {
   std::uint64_t h = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    h += std::bit_cast<std::uint64_t>(position[axis] + 0.0) + 0x9E3779B97F4A7C15;  // + 0.0 turns -0.0 into 0.0
-    h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9;
-    h = (h ^ (h >> 27)) * 0x94D049BB133111EB;
-    h ^= h >> 31;
-  }
+  for (int axis = 0; axis < 3; ++axis)
+    h = scramble(h + std::bit_cast<std::uint64_t>(position[axis] + 0.0));  // + 0.0 turns -0.0 into 0.0
   return h;
 }
 

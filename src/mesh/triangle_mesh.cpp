@@ -16,6 +16,12 @@ void append(TriangleMesh& mesh, const TriangleMesh& part) {
     mesh.triangles.push_back({VertexId{first + index(a)}, VertexId{first + index(b)}, VertexId{first + index(c)}});
 }
 
+TriangleMesh together(const std::vector<TriangleMesh>& parts) {
+  TriangleMesh mesh;
+  for (const TriangleMesh& part : parts) append(mesh, part);
+  return mesh;
+}
+
 Box bounding_box(const TriangleMesh& mesh) {
   Box box;
   for (const auto& t : mesh.triangles)
@@ -89,10 +95,8 @@ double signed_volume(const TriangleMesh& mesh) {
 
 bool has_triangles_of(const TriangleMesh& a, const TriangleMesh& b) {
   if (a.face_count() != b.face_count()) return false;
-  for (const FaceId f : a.triangles.ids()) {
-    const Triangle s = a.triangle(f), t = b.triangle(f);
-    if (s.a != t.a || s.b != t.b || s.c != t.c) return false;
-  }
+  for (const FaceId f : a.triangles.ids())
+    if (a.triangle(f) != b.triangle(f)) return false;
   return true;
 }
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "sample/noise.h"
+#include "prohull/detail/scramble.h"
 
 namespace prohull {
 

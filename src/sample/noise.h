@@ -2,20 +2,10 @@
 
 #include <cstdint>
 
+#include "prohull/detail/scramble.h"
 #include "prohull/geometry.h"
 
 namespace prohull {
-
-/// A well mixed function of its argument, the same everywhere (the finaliser of splitmix64).
-constexpr std::uint64_t scramble(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-  return x ^ (x >> 31);
-}
-
-/// Uniform in [0, 1).
-constexpr double unit_random(std::uint64_t seed) { return double(scramble(seed) >> 11) * 0x1p-53; }
 
 /// Perlin's gradient noise: smooth, about in [-1, 1], features of size 1.
 double gradient_noise(const Vec3& p, std::uint64_t seed);

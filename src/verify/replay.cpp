@@ -131,15 +131,13 @@ std::vector<TriangleKey> chain_of(std::size_t count, TriangleOf triangle) {
   return all;
 }
 
-bool is_same(const Triangle& s, const Triangle& t) { return s.a == t.a && s.b == t.b && s.c == t.c; }
-
 // Mostly the faces have the same order. Otherwise both are sorted, which takes six times the memory of a mesh.
 bool has_triangles_of(const Replay& replay, const TriangleMesh& original) {
   const auto ours = [&](std::size_t f) { return replay.triangle(f); };
   const auto theirs = [&](std::size_t f) { return original.triangle(FaceId(static_cast<std::uint32_t>(f))); };
   const std::size_t faces = replay.corners().size() / 3;
   bool are_same = faces == original.face_count();
-  for (std::size_t f = 0; f < faces && are_same; ++f) are_same = is_same(ours(f), theirs(f));
+  for (std::size_t f = 0; f < faces && are_same; ++f) are_same = ours(f) == theirs(f);
   return are_same || chain_of(faces, ours) == chain_of(original.face_count(), theirs);
 }
 

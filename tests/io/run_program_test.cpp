@@ -1,4 +1,4 @@
-#include "io/run_program.h"
+#include "prohull/detail/run_program.h"
 
 #include <fcntl.h>
 #include <sys/wait.h>

@@ -23,15 +23,17 @@ struct ProgramResult {
   End end;
   int number;
   std::string output;
+  std::string errors = {};  ///< as far as ProgramLimits asks for them
 };
 
 struct ProgramLimits {
   std::chrono::milliseconds time;
   std::size_t output;
+  std::size_t errors = 0;  ///< 0: they go to /dev/null
 };
 
-/// Runs a program without a shell: `input` is its standard input, its standard output is returned, its errors go to
-/// /dev/null. It inherits nothing else: no other open file, no signal mask, no ignored signals. It is waited for in any
+/// Runs a program, which PATH tells where it is, without a shell: `input` is its standard input, its standard output is
+/// returned. It inherits nothing else: no other open file, no signal mask, no ignored signals. It is waited for in any
 /// case, so that no zombie is left, and killed before, if it exceeds a limit or if `wait`, called some 20 times a
 /// second with the part of the time that is over, throws. Throws Cancelled if the program ends by Ctrl-C. Throws
 /// std::system_error if the system is out of descriptors or memory. May be called from any thread.
