@@ -6,6 +6,7 @@
 #include "build_summary.h"
 #include "certificate_output.h"
 #include "command.h"
+#include "prohull/detail/extension.h"
 #include "prohull/detail/float32_hull.h"
 #include "prohull/detail/memory.h"
 #include "prohull/distance.h"
@@ -82,10 +83,7 @@ Written write_certified(EnclosingHull hull, FinestLevel finest, const BuildOptio
   written.path = path_for(options.out, written.hull.target_faces);
   if (!written.hull.certified) return written;
   Stopwatch writing;
-  written.holds_bits = outputs.add(written.path, suffix, [&](const auto& file) {
-    write_mesh(file, written.hull.mesh);
-    return holds_triangles_of(file, written.hull.mesh);
-  });
+  written.holds_bits = outputs.add(written.path, suffix, written.hull.mesh);
   if (written.holds_bits)
     outputs.add(options.hierarchy, ".phull", [&](const auto& file) {
       return save_hull(file, written.hull.levels->with_finest_level(finest)), true;
@@ -143,8 +141,7 @@ void set_lengths(BuildOptions& options, const MeshUnit& unit) {
   EnclosingOptions& enclosing = options.enclosing;
   enclosing.padding = unit.number_of(options.gap, "--gap");
   enclosing.seal_holes = unit.number_of(options.seal_holes, "--seal-holes");
-  if (options.max_distance.number > 0)
-    enclosing.bounds.max_distance = unit.number_of(options.max_distance, "--max-distance");
+  unit.set(enclosing.bounds.max_distance, options.max_distance, "--max-distance");
 }
 
 /// What the library is asked for, where options say it in other units or words.
@@ -161,23 +158,16 @@ BuildOutcome build_and_write(BuildOptions options) {
   complete(options, suffix);
   BuildOutcome outcome;
   if (!is_standard_stream(options.in)) require_memory(options.in, kHullBytesPerFace);
-  Stopwatch reading;
   MeshMarks marks;
-  FileUnit file_unit;
-  TriangleMesh mesh =
-      read_input(options.in, options.input, NonFinite::Keep, options.tolerance.empty() ? nullptr : &marks, &file_unit);
-  outcome.read_seconds = reading.seconds();
-  const MeshUnit unit(mesh, options.in, options.input, file_unit);
-  set_lengths(options, unit);
-  if (options.recenter) outcome.offset = recentering_offset(mesh);
-  if (!options.tolerance.empty()) set_regions(options, outcome, mesh, marks, unit);
-  CertifiedOriginal original;
-  if (!options.certificate.empty()) {
-    naming(options.in, [&] { require_certifiable(mesh, options.enclosing.hull.side); });
-    original = certified_original(mesh, options.in, options.input);
-  }
-  mesh = minus(std::move(mesh), outcome.offset);
-  outcome.made = build(std::move(mesh), options);
+  InputMesh in = read_given(options.in, options.input, options.tolerance.empty() ? nullptr : &marks);
+  outcome.read_seconds = in.seconds;
+  set_lengths(options, in.unit);
+  if (options.recenter) outcome.offset = recentering_offset(in.mesh);
+  if (!options.tolerance.empty()) set_regions(options, outcome, in.mesh, marks, in.unit);
+  if (!options.certificate.empty())
+    naming(options.in, [&] { require_certifiable(in.mesh, options.enclosing.hull.side); });
+  const CertifiedOriginal original = certified_original(options.certificate, in.mesh, options.in, options.input);
+  outcome.made = build(minus(std::move(in.mesh), outcome.offset), options);
   Outputs outputs;
   for (EnclosingHull& made : outcome.made.hulls) {
     const FinestLevel finest = finest_level(outcome.made, made);
@@ -205,9 +195,9 @@ int exit_code(const BuildOptions& options, const BuildOutcome& outcome) {
 /// mesh, if hulls are written in that format.
 BuildOptions for_mesh(BuildOptions options, const std::filesystem::path& in) {
   const std::vector<std::string> formats = mesh_outputs().suffixes;
-  const bool is_written = std::ranges::find(formats, mesh_suffix(in)) != formats.end();
-  const std::string suffix =
-      options.out_format.empty() ? is_written ? mesh_suffix(in) : ".stl" : "." + options.out_format;
+  const bool is_written = std::ranges::find(formats, lower_case_extension(without_gz(in))) != formats.end();
+  const std::string suffix = options.out_format.empty() ? is_written ? lower_case_extension(without_gz(in)) : ".stl"
+                                                        : "." + options.out_format;
   options.in = in;
   options.out = pattern_of(options.out, (options.faces.size() > 1 ? "_{faces}" : "") + suffix);
   for (auto* const file : {&options.out, &options.hierarchy, &options.certificate, &options.report})

@@ -123,36 +123,25 @@ std::string_view why_stopped(const EnclosingHull& hull) {
                                                      : "no_legal_collapse";
 }
 
-nlohmann::json facts_of_hull(const BuildOptions& options, const BuildOutcome& outcome, const Written& written) {
-  const EnclosingHull& hull = written.hull;
-  return {{"path", written.path.string()},
-          {"target_faces", hull.target_faces},
-          {"faces", hull.mesh.face_count()},
-          {"vertices", hull.mesh.vertex_count()},
-          {"volume", volume_of(hull)},
-          {"void_ratio", finite_or_null(hull.void_ratio)},
-          {"void_is_estimated", outcome.made.is_estimated},
-          {"source", name_of(source_names(), hull.source)},
-          {"wrap_spacing",
-           hull.source == Source::Wrap ? nlohmann::json(outcome.solid(hull).wrap_spacing) : nlohmann::json()},
-          {"folds", facts(outcome.solid(hull).folds)},
-          {"self_intersections", hull.self_intersections},
-          {"added_self_intersections", told(options, outcome, written).added_self_intersections()},
-          {"quality", facts(written.measures.quality)},
-          {"rounded_vertices", hull.rounded_vertices},
-          {"original_volume", finite_or_null(hull.verdict.original_volume)},
-          {"verdict", facts(written.measures.verdict)},
-          {"relaxed_guards", hull.relaxed_guards},
-          {"stopped", why_stopped(hull)},
-          {"within_bounds", hull.within_bounds},
-          {"excess", finite_or_null(hull.excess)},
-          {"refusals", facts_of(hull.refusals)},
-          {"blocked", facts_of(hull.blocked)},
-          {"notes", hull.notes}};
-}
-
 nlohmann::json hull_report(const BuildOptions& options, const BuildOutcome& outcome, const Written& written) {
-  nlohmann::json report = facts_of_hull(options, outcome, written);
+  const EnclosingHull& hull = written.hull;
+  nlohmann::json report = facts(hull);
+  report.update(
+      nlohmann::json{{"path", written.path.string()},
+                     {"void_is_estimated", outcome.made.is_estimated},
+                     {"wrap_spacing", hull.source == Source::Wrap ? nlohmann::json(outcome.solid(hull).wrap_spacing)
+                                                                  : nlohmann::json()},
+                     {"folds", facts(outcome.solid(hull).folds)},
+                     {"added_self_intersections", told(options, outcome, written).added_self_intersections()},
+                     {"quality", facts(written.measures.quality)},
+                     {"rounded_vertices", hull.rounded_vertices},
+                     {"verdict", facts(written.measures.verdict)},
+                     {"relaxed_guards", hull.relaxed_guards},
+                     {"stopped", why_stopped(hull)},
+                     {"within_bounds", hull.within_bounds},
+                     {"excess", finite_or_null(hull.excess)},
+                     {"refusals", facts_of(hull.refusals)},
+                     {"blocked", facts_of(hull.blocked)}});
   if (!written.regions.empty()) report["regions"] = regions_report(outcome, written);
   return report;
 }

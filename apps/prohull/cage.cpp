@@ -49,10 +49,7 @@ Cage cage_of(TriangleMesh mesh, const CageRunOptions& options) {
 
 void write(File& file, Outputs& outputs) {
   const EnclosingHull& hull = file.hull->hull();
-  const bool holds_bits = hull.certified && outputs.add(file.path, file.suffix, [&](const auto& path) {
-    write_mesh(path, hull.mesh);
-    return holds_triangles_of(path, hull.mesh);
-  });
+  const bool holds_bits = hull.certified && outputs.add(file.path, file.suffix, hull.mesh);
   file.verdict = hull.verdict, file.verdict.certified = hull.certified;
   file.verdict = as_written(std::move(file.verdict), holds_bits);
 }
@@ -122,24 +119,16 @@ void print_hull(const Cage& cage, const File& file, bool gap_is_asked) {
 }
 
 nlohmann::json facts_of(const File& file) {
-  const EnclosingHull& hull = file.hull->hull();
-  return {{"path", file.path.string()},
-          {"target_faces", hull.target_faces},
-          {"faces", hull.mesh.face_count()},
-          {"vertices", hull.mesh.vertex_count()},
-          {"volume", volume_of(hull)},
-          {"void_ratio", finite_or_null(hull.void_ratio)},
-          {"source", name_of(source_names(), hull.source)},
-          {"original_volume", finite_or_null(hull.verdict.original_volume)},
-          {"verdict", facts(file.verdict)},
-          {"disjoint", file.hull->is_disjoint},
-          {"keeps_gap", file.hull->keeps_gap},
-          {"self_intersections", hull.self_intersections},
-          {"quality", facts(file.hull->quality)},
-          {"smallest_angle_degrees", file.hull->quality.smallest_angle / kDegree},
-          {"worst_aspect_ratio", finite_or_null(file.hull->quality.worst_aspect_ratio)},
-          {"target_reached", hull.target_reached},
-          {"notes", hull.notes}};
+  nlohmann::json json = facts(file.hull->hull());
+  json.update(nlohmann::json{{"path", file.path.string()},
+                             {"verdict", facts(file.verdict)},
+                             {"disjoint", file.hull->is_disjoint},
+                             {"keeps_gap", file.hull->keeps_gap},
+                             {"quality", facts(file.hull->quality)},
+                             {"smallest_angle_degrees", file.hull->quality.smallest_angle / kDegree},
+                             {"worst_aspect_ratio", finite_or_null(file.hull->quality.worst_aspect_ratio)},
+                             {"target_reached", file.hull->hull().target_reached}});
+  return json;
 }
 
 nlohmann::json report_of(const CageRunOptions& options, const Cage& cage, const std::vector<File>& files) {
@@ -183,12 +172,10 @@ int run_cage(CageRunOptions options) {
   else if (options.cage.inner_faces == 0)
     options.cage.inner_faces = options.cage.outer_faces;
   const Stopwatch building;
-  FileUnit unit;
-  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep, nullptr, &unit);
-  options.cage.gap = MeshUnit(mesh, options.in, options.input, unit).number_of(options.gap, "--gap");
-  CertifiedOriginal original;
-  if (!options.certificate.empty()) original = certified_original(mesh, options.in, options.input);
-  const Cage cage = cage_of(std::move(mesh), options);
+  InputMesh in = read_given(options.in, options.input);
+  options.cage.gap = in.unit.number_of(options.gap, "--gap");
+  const CertifiedOriginal original = certified_original(options.certificate, in.mesh, options.in, options.input);
+  const Cage cage = cage_of(std::move(in.mesh), options);
   const double build_seconds = building.seconds();
   std::vector<File> files{{"outer", false, &cage.outer, options.out, suffix}};
   if (cage.inner) files.push_back({"inner", true, &*cage.inner, options.inner, suffix_of_inner});

@@ -4,22 +4,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "console.h"
 #include "options.h"
+#include "prohull/detail/extension.h"
 
 namespace prohull::cli {
 namespace {
 
-std::string lower_suffix(const std::filesystem::path& path) {
-  std::string suffix = path.extension().string();
-  std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return std::tolower(c); });
-  return suffix;
-}
-
 bool is_packed(const std::filesystem::path& path) {
-  return lower_suffix(path) == ".gz" || lower_suffix(path) == ".zip";
+  return lower_case_extension(path) == ".gz" || lower_case_extension(path) == ".zip";
 }
 
 std::filesystem::path unpacked(const std::filesystem::path& path) { return is_packed(path) ? path.stem() : path; }
@@ -41,7 +35,7 @@ void check_certified_original(const std::filesystem::path& certificate, const st
     refuse(
         "--certificate: the original comes from standard input, but it has to be a file that can be checked; save it "
         "and name the file");
-  if (std::ranges::find(kChecked, lower_suffix(unpacked(original))) == kChecked.end())
+  if (std::ranges::find(kChecked, lower_case_extension(unpacked(original))) == kChecked.end())
     refuse(
         fmt::format("--certificate: {}: prohull_check reads .stl, .obj, .ply and .off files only; save the mesh as one "
                     "of these, and name that file as the original",
@@ -54,10 +48,11 @@ void check_certified_output(const std::filesystem::path& certificate, const std:
     refuse(fmt::format("--certificate: prohull_check reads no {} files; write {}", suffix, alternatives(checkable)));
 }
 
-CertifiedOriginal certified_original(TriangleMesh mesh, const std::filesystem::path& path,
-                                     const InputOptions& options) {
-  CertifiedOriginal original{std::move(mesh), options.factor()};
-  const bool has_polygons = lower_suffix(unpacked(path)) != ".stl";
+CertifiedOriginal certified_original(const std::filesystem::path& certificate, const TriangleMesh& mesh,
+                                     const std::filesystem::path& path, const InputOptions& options) {
+  if (certificate.empty()) return {};
+  CertifiedOriginal original{mesh, options.factor()};
+  const bool has_polygons = lower_case_extension(unpacked(path)) != ".stl";
   if (has_polygons) read_mesh(path, {.non_finite = NonFinite::Keep, .divided = &original.divided});
   return original;
 }

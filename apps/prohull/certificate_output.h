@@ -23,8 +23,9 @@ void check_certified_original(const std::filesystem::path& certificate, const st
 void check_certified_output(const std::filesystem::path& certificate, const std::string& suffix,
                             const std::vector<std::string>& checkable = {".stl", ".obj", ".ply", ".off"});
 
-/// The mesh that was read from `path`, for a certificate.
-CertifiedOriginal certified_original(TriangleMesh mesh, const std::filesystem::path& path, const InputOptions& options);
+/// The mesh that was read from `path`, if there is to be a certificate; otherwise nothing.
+CertifiedOriginal certified_original(const std::filesystem::path& certificate, const TriangleMesh& mesh,
+                                     const std::filesystem::path& path, const InputOptions& options);
 
 /// A line of the summary: what the certificate claims, and the command that checks it.
 void print_certificate(const std::filesystem::path& file, const Certificate& certificate,

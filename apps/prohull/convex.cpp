@@ -390,19 +390,14 @@ Outcome cover_and_write(ConvexOptions options, const PieceFiles& files) {
     options.cover.max_vertices = std::min(options.cover.max_vertices, most_vertices(*options.engine.value()));
   if (options.max_void_percent > 0) options.cover.bounds.max_void_ratio = options.max_void_percent / 100;
   Outcome outcome;
-  const Stopwatch reading;
-  FileUnit unit;
-  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep, nullptr, &unit);
-  outcome.read_seconds = reading.seconds();
-  outcome.input = inspect(mesh);
-  outcome.diagonal = finite_bounding_box(mesh).diagonal();
-  if (options.max_distance.number > 0)
-    options.cover.bounds.max_distance =
-        MeshUnit(mesh, options.in, options.input, unit).number_of(options.max_distance, "--max-distance");
-  CertifiedOriginal original;
-  if (!options.certificate.empty()) original = certified_original(mesh, options.in, options.input);
+  InputMesh in = read_given(options.in, options.input);
+  outcome.read_seconds = in.seconds;
+  outcome.input = inspect(in.mesh);
+  outcome.diagonal = finite_bounding_box(in.mesh).diagonal();
+  in.unit.set(options.cover.bounds.max_distance, options.max_distance, "--max-distance");
+  const CertifiedOriginal original = certified_original(options.certificate, in.mesh, options.in, options.input);
   outcome.cover = naming(options.in, options.cover,
-                         [&](const ConvexCoverOptions& how) { return convex_cover(std::move(mesh), how); });
+                         [&](const ConvexCoverOptions& how) { return convex_cover(std::move(in.mesh), how); });
   Outputs pieces, report;
   const Stopwatch writing;
   Verdict& verdict = outcome.cover.verdict;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <memory>
@@ -12,7 +11,6 @@
 #include "command.h"
 #include "prohull/detail/memory.h"
 #include "prohull/detail/missing_file.h"
-#include "prohull/error.h"
 #include "prohull/hull_file.h"
 
 namespace prohull::cli {
@@ -108,12 +106,6 @@ void add_mesh_inputs(CLI::App& command, std::vector<std::filesystem::path>& in, 
   add_input(command, in, options, purpose + " " + kMeshFiles + " A folder stands for the mesh files in it.");
 }
 
-std::string mesh_suffix(const std::filesystem::path& path) {
-  std::string text = path.extension().string();
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text == ".gz" ? mesh_suffix(path.stem()) : text;
-}
-
 namespace {
 
 /// What is said of a mesh that is no more than a point.
@@ -178,6 +170,15 @@ std::string read_bytes(const std::filesystem::path& path) {
 TriangleMesh read_input(const std::filesystem::path& path, const InputOptions& options, NonFinite non_finite,
                         MeshMarks* marks, FileUnit* unit) {
   return mesh_in(read_bytes(path), path, options, non_finite, marks, unit);
+}
+
+InputMesh read_given(const std::filesystem::path& path, const InputOptions& options, MeshMarks* marks) {
+  const Stopwatch reading;
+  FileUnit unit;
+  TriangleMesh mesh = read_input(path, options, NonFinite::Keep, marks, &unit);
+  const double seconds = reading.seconds();
+  const MeshUnit of_mesh(mesh, path, options, unit);
+  return {std::move(mesh), of_mesh, seconds};
 }
 
 MeshOrHull read_mesh_or_hull(const std::filesystem::path& path, const InputOptions& options, NonFinite non_finite) {

@@ -42,8 +42,6 @@ void add_mesh_inputs(CLI::App& command, std::vector<std::filesystem::path>& in, 
 using robot::is_robot_file;
 /// --package-path and --no-outside-files.
 void add_robot_file_options(CLI::App& command, robot::FileOptions& options);
-/// The suffix of a mesh file, in lower case, without the ".gz" that may follow.
-std::string mesh_suffix(const std::filesystem::path& path);
 /// By the suffix: YAML.
 bool is_sphere_file(const std::filesystem::path& path);
 
@@ -56,6 +54,10 @@ class MeshUnit {
 
   /// Throws InputError(InvalidOption) that calls the length `what`, if it has a unit, but the mesh's is not known.
   double number_of(const Length& length, const std::string& what) const;
+  /// Sets a bound that was given as a length greater than 0.
+  void set(double& bound, const Length& length, const std::string& what) const {
+    if (length.number > 0) bound = number_of(length, what);
+  }
 
  private:
   std::string name_;
@@ -80,6 +82,14 @@ std::vector<Row> require_some(std::vector<Row> rows, std::string_view what, cons
 /// read_mesh of a file, or of standard input for "-"; ended by Ctrl-C.
 TriangleMesh read_input(const std::filesystem::path& path, const InputOptions& options = {},
                         NonFinite non_finite = NonFinite::Refuse, MeshMarks* marks = nullptr, FileUnit* unit = nullptr);
+
+/// A mesh as it was given, for covers, hulls and the like: with triangles that are not finite.
+struct InputMesh {
+  TriangleMesh mesh;
+  MeshUnit unit;
+  double seconds;  ///< that reading took
+};
+InputMesh read_given(const std::filesystem::path& path, const InputOptions& options, MeshMarks* marks = nullptr);
 
 /// What a mesh or .phull file holds; it is read once, so that it may be a pipe.
 using MeshOrHull = std::variant<TriangleMesh, ProgressiveHull>;

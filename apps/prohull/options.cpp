@@ -109,6 +109,11 @@ std::vector<double> numbers_of(const std::string& text, std::size_t count, const
   return numbers;
 }
 
+Vec3 vector_of(const std::string& text, const char* what) {
+  const std::vector<double> numbers = numbers_of(text, 3, what);
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
 CLI::Validator one_of(const std::string& name, const std::vector<std::string>& words) {
   return CLI::Validator(
       [=](std::string& text) -> std::string {
@@ -116,6 +121,13 @@ CLI::Validator one_of(const std::string& name, const std::vector<std::string>& w
         return fmt::format("{} must be {}, not '{}'{}", name, alternatives(words), text, suggestion(text, words));
       },
       "");
+}
+
+CLI::Option* add_words(CLI::App& command, const std::string& names, const std::vector<std::string>& words,
+                       const std::string& description, const std::function<void(const std::string&)>& set) {
+  return command.add_option_function<std::string>(names, set, description)
+      ->transform(one_of(main_name(names), words))
+      ->type_name(CLI::detail::join(words, "|"));
 }
 
 std::string main_name(const std::string& names) {

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "prohull/detail/names.h"
+#include "prohull/geometry.h"
 #include "prohull/length.h"
 
 namespace prohull::cli {
@@ -30,6 +32,9 @@ CLI::Validator number_in(const std::string& name, const Range& range, bool whole
 /// The `count` finite numbers of a text, with commas between them. Throws InputError(InvalidOption) that calls it
 /// `what`.
 std::vector<double> numbers_of(const std::string& text, std::size_t count, const char* what);
+
+/// Three numbers, likewise.
+Vec3 vector_of(const std::string& text, const char* what);
 
 /// Refuses what is none of the words, and suggests the nearest.
 CLI::Validator one_of(const std::string& name, const std::vector<std::string>& words);
@@ -66,29 +71,32 @@ CLI::Option* add_number(CLI::App& command, const std::string& names, Values& val
   return add_optional_number(command, names, values, range, description)->capture_default_str();
 }
 
-/// An option that takes one of the names, of which --help tells the one that `value` has as the default.
+/// An option that takes one of the words, which `set` gets.
+CLI::Option* add_words(CLI::App& command, const std::string& names, const std::vector<std::string>& words,
+                       const std::string& description, const std::function<void(const std::string&)>& set);
+
 template <class Value>
-CLI::Option* add_choice(CLI::App& command, const std::string& names, Value& value,
-                        std::type_identity_t<Names<Value>> choices, const std::string& description) {
+std::vector<std::string> words_of(Names<Value> choices) {
   std::vector<std::string> words;
   for (const auto& [name, choice] : choices) words.emplace_back(name);
-  const auto set = [&value, choices](const std::string& word) { value = value_of(choices, word).value_or(value); };
-  return command.add_option_function<std::string>(names, set, description)
-      ->transform(one_of(main_name(names), words))
-      ->type_name(CLI::detail::join(words, "|"))
-      ->default_str(std::string(name_of(choices, value)));
+  return words;
 }
 
-/// A choice without a default.
+/// An option that takes one of the names.
 template <class Value>
 CLI::Option* add_choice(CLI::App& command, const std::string& names, std::optional<Value>& value,
                         std::type_identity_t<Names<Value>> choices, const std::string& description) {
-  std::vector<std::string> words;
-  for (const auto& [name, choice] : choices) words.emplace_back(name);
-  const auto set = [&value, choices](const std::string& word) { value = value_of(choices, word); };
-  return command.add_option_function<std::string>(names, set, description)
-      ->transform(one_of(main_name(names), words))
-      ->type_name(CLI::detail::join(words, "|"));
+  return add_words(command, names, words_of(choices), description,
+                   [&value, choices](const std::string& word) { value = value_of(choices, word); });
+}
+
+/// A choice of which --help tells the one that `value` has as the default.
+template <class Value>
+CLI::Option* add_choice(CLI::App& command, const std::string& names, Value& value,
+                        std::type_identity_t<Names<Value>> choices, const std::string& description) {
+  return add_words(command, names, words_of(choices), description,
+                   [&value, choices](const std::string& word) { value = *value_of(choices, word); })
+      ->default_str(std::string(name_of(choices, value)));
 }
 
 /// An option that takes a length greater than 0, in the unit of `mesh` if it has none.

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
@@ -20,7 +19,7 @@
 #include "console.h"
 #include "interrupt.h"
 #include "options.h"
-#include "prohull/detail/summary.h"
+#include "prohull/detail/extension.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 
@@ -203,6 +202,13 @@ void Outputs::add(const path& target, std::string_view bytes) {
   add(target, target.extension().string(), [&](const path& file) { return write_bytes(file, bytes), true; });
 }
 
+bool Outputs::add(const path& target, const std::string& suffix, const TriangleMesh& mesh) {
+  return add(target, suffix, [&](const path& file) {
+    write_mesh(file, mesh);
+    return holds_triangles_of(file, mesh);
+  });
+}
+
 void Outputs::add_report(const path& target, nlohmann::json report) {
   if (target.empty()) return;
   report["version"] = PROHULL_VERSION;
@@ -307,8 +313,7 @@ void flush_standard_output() {
 std::string output_name(const path& file) { return is_standard_stream(file) ? "standard output" : file.string(); }
 
 std::string output_suffix(const path& file, const OutputKind& kind, const std::string& format) {
-  std::string suffix = file.extension().string();
-  std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string suffix = lower_case_extension(file);
   const bool is_known = std::ranges::find(kind.suffixes, suffix) != kind.suffixes.end();
   if (is_known && !format.empty() && suffix != "." + format)
     refuse(fmt::format("{}: its name ends in {}, but --out-format says {}; make them agree", file.string(), suffix,

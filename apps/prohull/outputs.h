@@ -27,6 +27,9 @@ class Outputs {
   bool add(const std::filesystem::path& target, const std::string& suffix,
            const std::function<bool(const std::filesystem::path&)>& write);
   void add(const std::filesystem::path& target, std::string_view bytes);
+  /// Returns whether the file holds the triangles of `mesh`, bit for bit. If not, there will be no such output. STL
+  /// does not keep how vertices are numbered.
+  bool add(const std::filesystem::path& target, const std::string& suffix, const TriangleMesh& mesh);
   /// A report as JSON, to which the version of the program is added.
   void add_report(const std::filesystem::path& target, nlohmann::json report);
 

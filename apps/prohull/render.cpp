@@ -81,11 +81,6 @@ std::size_t level_of(const std::string& text) {
   return static_cast<std::size_t>(faces);
 }
 
-Vec3 point_of(const std::string& text) {
-  const std::vector<double> numbers = numbers_of(text, 3, "point");
-  return {numbers[0], numbers[1], numbers[2]};
-}
-
 double explosion_of(const std::string& text) {
   constexpr double kMost = 100;
   double factor = 0;
@@ -201,7 +196,8 @@ class Planner {
     plan.color = color_of(for_panel(options_.colors, i).value_or(is_hull ? "blue" : "clay"));
     if (options_.wireframe) plan.line_width = for_panel(options_.line_widths, i).value_or(1);
     plan.zoom = for_panel(options_.zooms, i).value_or(1);
-    if (const auto center = for_panel(options_.centers, i); center && *center != kNone) plan.center = point_of(*center);
+    if (const auto center = for_panel(options_.centers, i); center && *center != kNone)
+      plan.center = vector_of(*center, "point");
     plans_.push_back(std::move(plan));
     stop_if_interrupted();
   }

@@ -84,22 +84,17 @@ int run_repair(RepairRunOptions options) {
   check_files({options.in}, {options.out, options.report});
   options.solid.float32_coordinates = stores_float32(mesh_format("solid" + suffix));
   RepairOutcome outcome;
-  const Stopwatch reading;
-  FileUnit unit;
-  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep, nullptr, &unit);
-  outcome.read_seconds = reading.seconds();
-  options.solid.spacing = MeshUnit(mesh, options.in, options.input, unit).number_of(options.spacing, "--spacing");
+  InputMesh in = read_given(options.in, options.input);
+  outcome.read_seconds = in.seconds;
+  options.solid.spacing = in.unit.number_of(options.spacing, "--spacing");
   const Stopwatch repairing;
   outcome.solid = naming(options.in, options.solid,
-                         [&](const ClosedSolidOptions& how) { return closed_solid(std::move(mesh), how); });
+                         [&](const ClosedSolidOptions& how) { return closed_solid(std::move(in.mesh), how); });
   outcome.inside = inside_of(outcome.solid);
   outcome.seconds = repairing.seconds();
   const ClosedSolid& solid = outcome.solid;
   Outputs outputs;
-  const bool holds_bits = solid.verdict.certified && outputs.add(options.out, suffix, [&](const auto& file) {
-    write_mesh(file, solid.mesh);
-    return holds_triangles_of(file, solid.mesh);
-  });
+  const bool holds_bits = solid.verdict.certified && outputs.add(options.out, suffix, solid.mesh);
   outcome.verdict = as_written(solid.verdict, holds_bits);
   outputs.add_report(options.report, report_of(options, outcome));
   outputs.commit();

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -28,12 +27,6 @@ bool stays_within(const path& folder, const path& name) {
   if (error) return false;
   const path place = std::filesystem::weakly_canonical(folder / normal, error);
   return !error && std::ranges::mismatch(root, place).in1 == root.end();
-}
-
-bool have_same_bytes(const path& a, const path& b) {
-  std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
-  using Bytes = std::istreambuf_iterator<char>;
-  return first && second && std::equal(Bytes(first), Bytes(), Bytes(second), Bytes());
 }
 
 /// "run" of a report, if it is one that commit() may have written to this folder; otherwise null.
@@ -98,18 +91,13 @@ void RobotFolder::add(const path& name, const std::function<void(const path&)>& 
   outputs_.add(target, name.extension().string(), [&](const path& file) {
     write(file);
     new_[name.generic_string()] = robot::hash_of_file(file);
-    has_changes_ = has_changes_ || !have_same_bytes(file, target);
+    has_changes_ = has_changes_ || !robot::have_same_bytes(file, target);
     return true;
   });
 }
 
 void RobotFolder::add(const path& name, const std::string& text) {
-  add(name, [&](const path& file) {
-    std::ofstream out(file, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) throw InputError(Defect::CannotWrite, fmt::format("{}: cannot write", file.string()));
-  });
+  add(name, [&](const path& file) { write_bytes(file, text); });
 }
 
 void RobotFolder::commit(nlohmann::json report, const std::string& key, int exit_code) {

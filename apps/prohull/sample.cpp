@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "command.h"
 #include "prohull/error.h"
@@ -26,18 +25,12 @@ bool is_robot(const std::string& name) {
   return std::any_of(robots.begin(), robots.end(), [&](const auto& robot) { return robot.name == name; });
 }
 
-/// What a file of float32 keeps; one shape is as good a sample as the other.
-void round_to_float32(TriangleMesh& mesh) {
-  for (Vec3& p : mesh.positions)
-    for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<double>(static_cast<float>(p[axis]));
-}
-
 int make_mesh(const SampleOptions& options) {
   const Stopwatch watch;
   const std::string suffix = output_suffix(options.out, mesh_outputs(), options.out_format);
   check_files({}, {options.out});
   TriangleMesh mesh = make_sample(options.name, options.faces);
-  if (stores_float32(mesh_format("mesh" + suffix))) round_to_float32(mesh);
+  if (stores_float32(mesh_format("mesh" + suffix))) mesh = robot::rounded_to_float32(std::move(mesh));
   Outputs outputs;
   outputs.add(options.out, suffix, [&](const auto& file) { return write_mesh(file, mesh), true; });
   outputs.commit();
@@ -78,16 +71,9 @@ void require_new_folder(const std::filesystem::path& folder) {
                                folder.string()));
 }
 
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw InputError(Defect::CannotWrite, file.string() + ": cannot write; is the disk full?");
-}
-
 void write_robot(const std::filesystem::path& folder, const std::string& name, const robot::SampleRobot& robot) {
   std::filesystem::create_directory(folder);
-  write_text(folder / (name + ".urdf"), robot.urdf);
+  write_bytes(folder / (name + ".urdf"), robot.urdf);
   for (const auto& [path, mesh] : robot.meshes) {
     stop_if_interrupted();
     std::filesystem::create_directories((folder / path).parent_path());

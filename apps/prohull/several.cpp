@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "command.h"
+#include "prohull/detail/extension.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 
@@ -18,7 +19,7 @@ constexpr std::string_view kNameInName = "{name}";
 
 bool is_mesh_file(const fs::path& path) {
   const std::vector<std::string> known = read_mesh_extensions();
-  return fs::is_regular_file(path) && std::ranges::find(known, mesh_suffix(path)) != known.end();
+  return fs::is_regular_file(path) && std::ranges::find(known, lower_case_extension(without_gz(path))) != known.end();
 }
 
 std::vector<fs::path> meshes_in(const fs::path& folder) {

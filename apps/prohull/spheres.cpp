@@ -134,18 +134,13 @@ void print_summary(const SpheresOptions& options, const Outcome& outcome) {
 int run_spheres(SpheresOptions options) {
   const std::string suffix = check_options(options);
   Outcome outcome;
-  const Stopwatch reading;
-  FileUnit unit;
-  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep, nullptr, &unit);
-  outcome.read_seconds = reading.seconds();
-  outcome.faces = mesh.face_count(), outcome.diagonal = finite_bounding_box(mesh).diagonal();
-  if (options.max_distance.number > 0)
-    options.cover.max_distance =
-        MeshUnit(mesh, options.in, options.input, unit).number_of(options.max_distance, "--max-distance");
-  CertifiedOriginal original;
-  if (!options.certificate.empty()) original = certified_original(mesh, options.in, options.input);
+  InputMesh in = read_given(options.in, options.input);
+  outcome.read_seconds = in.seconds;
+  outcome.faces = in.mesh.face_count(), outcome.diagonal = finite_bounding_box(in.mesh).diagonal();
+  in.unit.set(options.cover.max_distance, options.max_distance, "--max-distance");
+  const CertifiedOriginal original = certified_original(options.certificate, in.mesh, options.in, options.input);
   outcome.cover = naming(options.in, options.cover,
-                         [&](const SphereCoverOptions& how) { return sphere_cover(std::move(mesh), how); });
+                         [&](const SphereCoverOptions& how) { return sphere_cover(std::move(in.mesh), how); });
   Outputs outputs;
   if (outcome.cover.verdict.certified) add_spheres(outputs, options, suffix, outcome.cover.balls);
   if (outcome.cover.verdict.certified && !options.certificate.empty()) {

@@ -67,17 +67,6 @@ Verdict verdict_of(const SweptZone& zone, const TriangleMesh& pieces) {
   return farther_by(std::move(verdict), distance_bounds(zone.hull->mesh, pieces).upper);
 }
 
-TriangleMesh joined(const std::vector<TriangleMesh>& pieces) {
-  TriangleMesh all;
-  for (const TriangleMesh& piece : pieces) append(all, piece);
-  return all;
-}
-
-Vec3 vector_of(const std::string& text, const char* what) {
-  const std::vector<double> numbers = numbers_of(text, 3, what);
-  return {numbers[0], numbers[1], numbers[2]};
-}
-
 Vec3 axis_of(const std::string& text) {
   constexpr Vec3 kAxes[]{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const auto named = value_of(axis_names(), text);
@@ -99,15 +88,11 @@ std::vector<RigidMotion> motions_of(const SweepRunOptions& options) {
 
 LinkSweep sweep_of_mesh(const SweepRunOptions& options, SweepOptions how, SweptZone& zone) {
   const std::vector<RigidMotion> motions = motions_of(options);
-  const Stopwatch reading;
-  FileUnit unit;
-  TriangleMesh mesh = read_input(options.in, options.input, NonFinite::Keep, nullptr, &unit);
-  zone.read_seconds = reading.seconds();
-  zone.input = {{"faces", mesh.face_count()}, {"diagonal", finite_bounding_box(mesh).diagonal()}};
-  if (options.max_distance.number > 0)
-    how.max_distance =
-        MeshUnit(mesh, options.in, options.input, unit).number_of(options.max_distance, "--max-distance");
-  return naming(options.in, [&] { return LinkSweep{"", sweep(std::move(mesh), motions, how)}; });
+  InputMesh in = read_given(options.in, options.input);
+  zone.read_seconds = in.seconds;
+  zone.input = {{"faces", in.mesh.face_count()}, {"diagonal", finite_bounding_box(in.mesh).diagonal()}};
+  in.unit.set(how.max_distance, options.max_distance, "--max-distance");
+  return naming(options.in, [&] { return LinkSweep{"", sweep(std::move(in.mesh), motions, how)}; });
 }
 
 std::vector<std::size_t> links_of(const Robot& robot, const std::string& names) {
@@ -153,13 +138,13 @@ void add_hull(const SweepRunOptions& options, bool float32, SweptZone& zone) {
   how.hull.float32_coordinates = float32;
   how.hull.threads = options.sweep.threads;
   how.progress = std::ref(line);
-  const TriangleMesh all = joined(zone.pieces());
+  const TriangleMesh all = together(zone.pieces());
   zone.hull = enclosing_hull(all, options.faces, how);
 }
 
 bool write(const SweepRunOptions& options, const std::string& suffix, const SweptZone& zone, Outputs& outputs) {
   const std::vector<TriangleMesh> pieces = zone.hull ? std::vector<TriangleMesh>{zone.hull->mesh} : zone.pieces();
-  const TriangleMesh all = joined(pieces);
+  const TriangleMesh all = together(pieces);
   return outputs.add(options.out, suffix, [&](const path& file) {
     if (!zone.hull && holds_several_meshes(mesh_format(file)))
       write_meshes(file, pieces, piece_names("piece", pieces.size()));
@@ -296,7 +281,7 @@ int run_sweep(const SweepRunOptions& options) {
   if (options.faces > 0) add_hull(options, float32, zone);
   zone.seconds = watch.seconds() - zone.read_seconds;
   Outputs outputs, report;
-  zone.verdict = verdict_of(zone, joined(zone.pieces()));
+  zone.verdict = verdict_of(zone, together(zone.pieces()));
   const bool holds_bits = zone.verdict.certified && write(options, suffix, zone, outputs);
   zone.verdict = as_written(std::move(zone.verdict), holds_bits);
   report.add_report(options.report, report_of(options, zone));

@@ -49,4 +49,16 @@ nlohmann::json facts(const Folds& folds) {
   return {{"faces", folds.faces}, {"place", {folds.place.x, folds.place.y, folds.place.z}}};
 }
 
+nlohmann::json facts(const EnclosingHull& hull) {
+  return {{"target_faces", hull.target_faces},
+          {"faces", hull.mesh.face_count()},
+          {"vertices", hull.mesh.vertex_count()},
+          {"volume", volume_of(hull)},
+          {"void_ratio", finite_or_null(hull.void_ratio)},
+          {"source", name_of(source_names(), hull.source)},
+          {"original_volume", finite_or_null(hull.verdict.original_volume)},
+          {"self_intersections", hull.self_intersections},
+          {"notes", hull.notes}};
+}
+
 }  // namespace prohull::cli

@@ -35,4 +35,7 @@ int exit_code_of(const Verdict& verdict, bool is_sure);
 
 nlohmann::json facts(const Folds& folds);
 
+/// What reports say of a hull wherever it is written, but for its verdict.
+nlohmann::json facts(const EnclosingHull& hull);
+
 }  // namespace prohull::cli

@@ -18,13 +18,6 @@
 namespace prohull::cli {
 namespace {
 
-void print_offenders(const Verification& found, const std::string& mesh) {
-  if (found.faces_outside > 0)
-    say("  {} of {} {} outside, at least in part; the farthest:\n", counted(found.faces_outside, "face"), mesh,
-        found.faces_outside == 1 ? "lies" : "lie");
-  print_worst(found.worst);
-}
-
 /// Of faces nearer than the gap; where rounding hides by how much, that they are.
 std::string distance_text(double distance, double gap, int digits) {
   if (distance == gap) return fmt::format("less than {:.17g}", gap);
@@ -101,7 +94,7 @@ void print_summary(const VerifyOptions& options, const Verification& found, cons
                    double seconds) {
   const std::string hull = input_name(options.hull), original = input_name(options.original);
   say("{}, {:.2f} s\n", verdict(found, sizes, options, gap), seconds);
-  print_offenders(found, found.side == HullSide::Outer ? original : hull);
+  print_worst(found.faces_outside, found.side == HullSide::Outer ? original : hull, found.worst);
   print_near_faces(found, hull, gap);
   if (found.cavities > 0 && found.faces_outside == 0)
     say("  {} of {} {}, and that is not covered\n", counted(found.cavities, "part"),
@@ -183,8 +176,7 @@ struct Judged {
 /// Also writes the report.
 Judged judge(const VerifyOptions& options) {
   check_files({options.hull, options.original}, {options.report});
-  const std::vector<double> numbers = numbers_of(options.offset, 3, "offset");
-  const Vec3 offset{numbers[0], numbers[1], numbers[2]};
+  const Vec3 offset = vector_of(options.offset, "offset");
   const Stopwatch reading;
   const MeshOrHull hull = read_mesh_or_hull(options.hull, options.hull_input);
   FileUnit unit;
@@ -199,7 +191,7 @@ Judged judge(const VerifyOptions& options) {
   const SizeComparison sizes(box_of(hull), face_count(hull), finite_bounding_box(original), found.side);
   Outputs outputs;
   nlohmann::json report = report_of(options, found, gap, seconds);
-  report["offset"] = numbers;
+  report["offset"] = {offset.x, offset.y, offset.z};
   report.update(sizes.facts());
   outputs.add_report(options.report, report);
   outputs.commit();
@@ -267,7 +259,10 @@ int run_verify(const VerifyOptions& options) {
 
 std::string text_of_point(const Vec3& p) { return fmt::format("({:.9g}, {:.9g}, {:.9g})", p.x, p.y, p.z); }
 
-void print_worst(const std::vector<Offender>& worst) {
+void print_worst(std::size_t faces_outside, const std::string& mesh, const std::vector<Offender>& worst) {
+  if (faces_outside > 0)
+    say("  {} of {} {} outside, at least in part; the farthest:\n", counted(faces_outside, "face"), mesh,
+        faces_outside == 1 ? "lies" : "lie");
   for (const Offender& o : worst)
     say("    face {} at {}, {}\n", index(o.face), text_of_point(o.point),
         o.distance > 0 ? fmt::format("{:.6g} outside", o.distance) : "outside by less than rounding lets tell");

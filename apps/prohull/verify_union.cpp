@@ -63,10 +63,7 @@ std::string verdict(const Union& all, const VerifyOptions& options, const UnionV
 }
 
 void print_offenders(const UnionVerification& found, const std::string& original) {
-  if (found.faces_outside > 0)
-    say("  {} of {} {} outside, at least in part; the farthest:\n", counted(found.faces_outside, "face"), original,
-        found.faces_outside == 1 ? "lies" : "lie");
-  print_worst(found.worst);
+  print_worst(found.faces_outside, original, found.worst);
   if (found.faces_undecided > 0)
     say("  {} of {} {} undecided{}\n", counted(found.faces_undecided, "face"), original,
         found.faces_undecided == 1 ? "is" : "are", found.undecided.empty() ? "" : ":");
@@ -138,10 +135,9 @@ int run_verify_union(const VerifyOptions& options) {
   std::vector<std::filesystem::path> inputs = files;
   inputs.push_back(last);
   check_files(inputs, {options.report});
-  const std::vector<double> numbers = numbers_of(options.offset, 3, "offset");
+  const Vec3 offset = vector_of(options.offset, "offset");
   const Union all = read_union(files, options.hull_input, options.link);
-  const TriangleMesh original =
-      minus(read_input(last, options.original_input, NonFinite::Keep), Vec3{numbers[0], numbers[1], numbers[2]});
+  const TriangleMesh original = minus(read_input(last, options.original_input, NonFinite::Keep), offset);
   const Stopwatch verifying;
   UnionVerification found = verify(all, original, options);
   const double seconds = verifying.seconds();
@@ -150,7 +146,7 @@ int run_verify_union(const VerifyOptions& options) {
   const SizeComparison sizes(box_of(all), face_count(all), finite_bounding_box(original), HullSide::Outer);
   nlohmann::json report = report_of(files, all, found);
   report["original"] = last.string();
-  report["offset"] = numbers;
+  report["offset"] = {offset.x, offset.y, offset.z};
   report.update(sizes.facts());
   report["link"] = options.link.empty() ? nlohmann::json() : nlohmann::json(options.link);
   report["seconds"] = seconds;

@@ -29,7 +29,7 @@ struct VerifyOptions {
 /// "(1, 2, 3)"
 std::string text_of_point(const Vec3& p);
 
-void print_worst(const std::vector<Offender>& worst);
+void print_worst(std::size_t faces_outside, const std::string& mesh, const std::vector<Offender>& worst);
 
 /// The offenders as reports have them.
 nlohmann::json facts(const std::vector<Offender>& worst);
