@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "command.h"
+#include "prohull/detail/query_io.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
@@ -74,7 +75,9 @@ Vec3 axis_of(const std::string& text) {
 }
 
 std::vector<RigidMotion> motions_of(const SweepRunOptions& options) {
-  if (!options.poses.empty()) return motions_between(read_poses(read_bytes(options.poses), input_name(options.poses)));
+  if (!options.poses.empty())
+    return motions_between(require_some(read_poses(read_bytes(options.poses), input_name(options.poses), corrected),
+                                        "poses", options.poses));
   const double degrees = options.degrees.value_or(0);
   if (!options.degrees && options.move.empty()) refuse("how does it move? Say --angle, --move or --poses");
   RigidMotion motion{.angle = degrees * kDegree};
@@ -308,10 +311,11 @@ void add_motion_options(CLI::App& command, SweepRunOptions& options) {
                                       "Move the mesh straight by this vector, in the unit of the mesh as it is read, "
                                       "after --scale and --unit. With --angle it turns meanwhile, as a screw does.")
                                 ->group(kHow);
-  CLI::Option* const poses = add_value(command, "--poses", options.poses, "FILE.csv",
-                                       "File with a pose in each line: x, y, z and the quaternion w, x, y, z, or the "
-                                       "12 or 16 numbers of a matrix. From one pose to the next the origin goes "
-                                       "straight, and the mesh turns about one axis the shorter way round.")
+  CLI::Option* const poses = add_value(command, "--poses", options.poses, "FILE",
+                                       "File of poses, one a row, .npy, .npz or .csv: x, y, z and the quaternion w, x, "
+                                       "y, z, or the 12 or 16 numbers of a matrix. From one pose to the next the "
+                                       "origin goes straight, and the mesh turns about one axis the shorter way "
+                                       "round.")
                                  ->group(kHow);
   for (const char* const name : {"--axis", "--through", "--angle"}) poses->excludes(command.get_option(name));
   poses->excludes(move);

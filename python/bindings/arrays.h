@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "prohull/collide.h"
 #include "prohull/detail/names.h"
 #include "prohull/detail/shapes.h"
 #include "prohull/enclosure.h"
@@ -96,6 +97,11 @@ template <class Row, class T>
 const Row* rows_of(const Array<T>& array) {
   static_assert(sizeof(Row) % sizeof(T) == 0 && std::is_standard_layout_v<Row>);
   return reinterpret_cast<const Row*>(array.data());
+}
+
+/// The upper three rows of a matrix of 4 x 4.
+inline Pose pose_of(const double* m) {
+  return {{Vec3{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}, {m[3], m[7], m[11]}};
 }
 
 /// Of rows of four numbers.

@@ -1,5 +1,4 @@
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "arrays.h"
@@ -11,11 +10,6 @@ namespace py = pybind11;
 
 namespace prohull::python {
 namespace {
-
-/// The upper three rows of a matrix of 4 x 4.
-Pose pose_of(const double* m) {
-  return {{Vec3{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}, {m[3], m[7], m[11]}};
-}
 
 /// Of two arrays of shape (n, 16).
 std::vector<PosePair> pose_pairs(const Array<double>& a, const Array<double>& b) {

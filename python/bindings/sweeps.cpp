@@ -11,6 +11,7 @@
 #include "keywords.h"
 #include "module.h"
 #include "prohull/detail/given_options.h"
+#include "prohull/detail/query_io.h"
 #include "prohull/error.h"
 #include "prohull/sweep.h"
 #include "robot/files/robot_file.h"
@@ -49,12 +50,14 @@ Motions turn(const Numbers& axis, const Numbers& through, double angle, const Nu
 /// Of matrices, shape (n, 16).
 Motions motions_of(const Array<double>& rows) {
   std::vector<Pose> poses;
-  for (py::ssize_t i = 0; i < rows.shape(0); ++i) poses.push_back(*robot::pose_of({rows.data(i, 0), 16}));
+  for (py::ssize_t i = 0; i < rows.shape(0); ++i) poses.push_back(robot::corrected(pose_of(rows.data(i, 0))));
   return robot::motions_between(poses);
 }
 
 Motions read_motions(const std::string& text, const std::string& file) {
-  return robot::motions_between(robot::read_poses(text, file));
+  const std::vector<Pose> poses = read_poses(text, file, robot::corrected);
+  if (poses.empty()) throw InputError(Defect::Malformed, file + ": there are no poses");
+  return robot::motions_between(poses);
 }
 
 py::dict sweep_mesh(const TriangleMesh& mesh, const Motions& motions, const py::object& progress,

@@ -78,7 +78,7 @@ def test_what_is_wrong_with_a_motion_is_told(cube, options, message):
 
 def test_the_name_of_a_file_stands_in_errors(tmp_path):
     (tmp_path / "poses.csv").write_bytes(b"\xff\n")
-    with pytest.raises(prohull.InputError, match="poses.csv: line 1: expected"):
+    with pytest.raises(prohull.InputError, match="poses.csv: there are no poses"):
         prohull.sweep(prohull.sample("box", 12), poses=tmp_path / "poses.csv")
     (tmp_path / "flat.off").write_text("OFF\n1 0 0\n0 0 0\n")
     with pytest.raises(prohull.InputError, match="flat.off: "):

@@ -109,24 +109,38 @@ std::size_t numbers_per_row(std::string_view content, const std::filesystem::pat
   return 0;
 }
 
-RowSink poses_into(std::vector<Pose>& poses, const PoseRow& form, const std::string& name) {
-  return [&](std::span<const double> row, Place place) {
+/// `of_matrix`, if it is not null, makes another pose of what a matrix is.
+RowSink poses_into(std::vector<Pose>& poses, const PoseRow& form, const std::string& name,
+                   Pose (*of_matrix)(const Pose&) = nullptr) {
+  return [&poses, &form, &name, of_matrix](std::span<const double> row, Place place) {
     try {
       const bool is_affine = row.size() != 16 || (row[12] == 0 && row[13] == 0 && row[14] == 0 && row[15] == 1);
       if (!is_affine) throw InputError(Defect::Malformed, "the last row of the matrix is not 0,0,0,1");
       poses.push_back(form.pose(row));
       require_rigid(poses.back());
+      if (of_matrix && row.size() > 7) poses.back() = of_matrix(poses.back());
     } catch (const InputError& error) {
       fail(name, place, error.what(), Defect::Malformed);
     }
   };
 }
 
-std::vector<Pose> read_uncompressed_poses(std::string_view content, const std::filesystem::path& name) {
+/// Refuses names of columns that put the w of the quaternion last.
+void check_order(std::string_view content, const std::filesystem::path& name) {
+  const std::string_view names = content.substr(0, content.find('\n'));
+  const auto w = names.rfind('w'), z = names.rfind('z');
+  if (!names.starts_with('#') && w != names.npos && z != names.npos && w > z)
+    fail(name.string(), {Place::Unit::Line, 1}, "the w of the quaternion comes last; expected x, y, z, w, x, y, z",
+         Defect::Malformed);
+}
+
+std::vector<Pose> read_uncompressed_poses(std::string_view content, const std::filesystem::path& name,
+                                          Pose (*of_matrix)(const Pose&)) {
   const std::string file = name.string();
   const PoseRow& form = pose_row(numbers_per_row(content, name), file);
+  if (query_format_of(content, name) == QueryFormat::Csv) check_order(content, name);
   std::vector<Pose> poses;
-  read_uncompressed(content, name, {"poses", form.names, form.per_point}, poses_into(poses, form, file));
+  read_uncompressed(content, name, {"poses", form.names, form.per_point}, poses_into(poses, form, file, of_matrix));
   return poses;
 }
 
@@ -185,9 +199,10 @@ std::vector<Vec3> read_points(std::string_view content, const std::filesystem::p
                             [](std::span<const double> row) { return point(row, 0); });
 }
 
-std::vector<Pose> read_poses(std::string_view content, const std::filesystem::path& name) {
-  return is_gzip(content) ? read_uncompressed_poses(gunzip(content, name), name)
-                          : read_uncompressed_poses(content, name);
+std::vector<Pose> read_poses(std::string_view content, const std::filesystem::path& name,
+                             Pose (*of_matrix)(const Pose&)) {
+  return is_gzip(content) ? read_uncompressed_poses(gunzip(content, name), name, of_matrix)
+                          : read_uncompressed_poses(content, name, of_matrix);
 }
 
 Pose read_pose(std::string_view text, const std::string& option) {

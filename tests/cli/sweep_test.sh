@@ -60,7 +60,10 @@ expect 0 "poses" $sweep --poses poses.csv -o poses.stl
 expect 0 "poses cover the end" $prohull verify poses.stl end.off
 printf 'bar.off 1\n' >bad.csv
 expect 3 "no poses" $sweep --poses bad.csv -o no.stl
-says err "no poses" "bad.csv: line 1: expected x, y, z and a quaternion"
+says err "no poses" "bad.csv: line 1: 'bar.off' is not a number; expected x"
+echo '# none' >bad.csv
+expect 3 "an empty file of poses" $sweep --poses bad.csv -o no.stl
+says err "an empty file of poses" "bad.csv: there are no poses"
 printf '0,0,0,1,0,0,0\n\n0,0,0,0,0,0,0\n' >zero.csv
 expect 3 "a quaternion of nothing" $sweep --poses zero.csv -o no.stl
 says err "a quaternion of nothing" "zero.csv: line 3: a quaternion of a pose must be finite, and not 0"

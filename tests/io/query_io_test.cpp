@@ -236,6 +236,8 @@ TEST(QueryReader, RefusesWhatIsNoPose) {
   refuse_option("", "--pose: there are no numbers");
   refuse_option("0,0,0,1,0,0,0\n0,0,0,1,0,0,0", "--pose: there is more than one pose");
   refuse("0,0,0,1,0,0,0\n0,0,0,0,0,0,0\n", "poses.csv: line 2: a quaternion of a pose must be finite, and not 0");
+  refuse("x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,1\n",
+         "poses.csv: line 1: the w of the quaternion comes last; expected x, y, z, w, x, y, z");
   refuse("0,0,0,nan,0,0,0\n", "poses.csv: line 1: a quaternion of a pose must be finite, and not 0");
   refuse("2,0,0,0,0,2,0,0,0,0,2,0\n",
          "poses.csv: line 1: a pose is not rigid: the matrix times its transpose must be the identity within 1e-06, "

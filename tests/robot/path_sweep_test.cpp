@@ -13,6 +13,7 @@
 
 #include "geometry/predicates.h"
 #include "meshes.h"
+#include "prohull/detail/query_io.h"
 #include "prohull/error.h"
 #include "random.h"
 #include "robot/motion/kinematics.h"
@@ -202,22 +203,24 @@ TEST(WorkspaceSweep, RefusesJointsWithoutBounds) {
 }
 
 TEST(Poses, AreReadAsQuaternionsOrMatrices) {
-  const auto poses = read_poses(
-      "x,y,z,qw,qx,qy,qz\n1,2,3,1,0,0,0\n\n# half a turn\n1 2 3 0 0 0 2\n"
-      "0;-1;0;4;1;0;0;5;0;0;1;6\n1,0,0,7, 0,1,0,8, 0,0,1,9, 0,0,0,1\n",
-      "p.csv");
-  ASSERT_EQ(poses.size(), 4U);
+  const auto poses_in = [](const char* text) { return read_poses(text, "p.csv", corrected); };
+  const auto poses = poses_in("x,y,z,qw,qx,qy,qz\n1,2,3,1,0,0,0\n\n# half a turn\n1,2,3,0,0,0,2\n");
+  ASSERT_EQ(poses.size(), 2U);
   EXPECT_EQ(poses[1].rotation[0], (Vec3{-1, 0, 0}));
-  EXPECT_EQ(poses[2].translation, (Vec3{4, 5, 6}));
-  EXPECT_EQ(poses[3].translation, (Vec3{7, 8, 9}));
+  EXPECT_EQ(poses_in("1 2 3 0 0 0 2\n"), std::vector{poses[1]});
+  EXPECT_EQ(poses_in("0;-1;0;4;1;0;0;5;0;0;1;6\n")[0].translation, (Vec3{4, 5, 6}));
+  EXPECT_EQ(poses_in("1,0,0,7, 0,1,0,8, 0,0,1,9, 0,0,0,1\n")[0].translation, (Vec3{7, 8, 9}));
+  const Pose rough = poses_in("1,1e-7,0,0, -1e-7,1,0,0, 0,0,1,0\n")[0];
+  EXPECT_NEAR(dot(rough.rotation[0], rough.rotation[0]), 1, 1e-15);  // of a matrix that is almost one, a rotation
+  EXPECT_TRUE(poses_in("").empty() && poses_in("# none\n").empty());
   for (const char* text :
-       {"", "# none\n", "1,2,3\n", "1,2,3,nan,0,0,0\n", "x\n1,2,3,0,0,0,0\n", "1,2,3,1,0,0,z\n",
-        "2,0,0,0, 0,1,0,0, 0,0,1,0\n", "1,2,3,1,0,0,0x\n0,0,0,1,0,0,0\n", "x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,1\n"})
-    EXPECT_THROW(read_poses(text, "p.csv"), InputError) << text;
+       {"1,2,3\n", "1,2,3,nan,0,0,0\n", "x\n1,2,3,0,0,0,0\n", "1,2,3,1,0,0,z\n", "2,0,0,0, 0,1,0,0, 0,0,1,0\n",
+        "1,2,3,1,0,0,0x\n0,0,0,1,0,0,0\n", "x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,1\n"})
+    EXPECT_THROW(poses_in(text), InputError) << text;
 }
 
 TEST(Poses, TurnByLessThanDoublesCanSquare) {
-  const std::vector<Pose> poses = read_poses("0 0 0 1 0 0 0\n1 0 0 1 0 0 1e-150\n", "p.csv");
+  const std::vector<Pose> poses = read_poses("0 0 0 1 0 0 0\n1 0 0 1 0 0 1e-150\n", "p.csv", corrected);
   EXPECT_EQ(sweep(meshes::box({0, 0, 0}, {1, 1, 1}), motions_between(poses)).pieces.size(), 1U);
 }
 

@@ -37,8 +37,10 @@ std::vector<Triangle> read_triangles(std::string_view content, const std::filesy
 ///   x,y,z,qw,qx,qy,qz       a translation and a quaternion of any length, its real part first; shape (n, 7)
 ///   r00,r01,r02,x,r10,...   the upper three rows of a matrix; shape (n, 12) or (n, 3, 4)
 ///   r00,...,0,0,0,1         a whole matrix; shape (n, 16) or (n, 4, 4)
-/// Malformed if a pose is not rigid (collide.h).
-std::vector<Pose> read_poses(std::string_view content, const std::filesystem::path& name);
+/// Malformed if a pose is not rigid (collide.h), and for names of columns that put the real part last. `of_matrix`
+/// makes another pose of what a matrix is.
+std::vector<Pose> read_poses(std::string_view content, const std::filesystem::path& name,
+                             Pose (*of_matrix)(const Pose&) = nullptr);
 
 /// The same of one pose, the argument of an option, which messages name.
 Pose read_pose(std::string_view text, const std::string& option);
