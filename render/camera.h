@@ -3,7 +3,6 @@
 #include <numbers>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "prohull/geometry.h"
 

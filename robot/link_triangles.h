@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "prohull/detail/solid_pieces.h"
 #include "prohull/triangle_mesh.h"

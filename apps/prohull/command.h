@@ -4,7 +4,6 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <string>
 
 #include "console.h"
 #include "inputs.h"

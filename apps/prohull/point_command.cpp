@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "asked_mesh.h"
 #include "command.h"
 #include "paper/engines.h"
 #include "prohull/detail/memory.h"

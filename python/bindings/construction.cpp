@@ -2,9 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
-#include <string>
 #include <utility>
 #include <vector>
 

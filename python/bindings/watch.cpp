@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <future>
-#include <string>
 
 #include "prohull/error.h"
 

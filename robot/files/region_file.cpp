@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "robot/files/yaml_reader.h"

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <fstream>
 #include <iterator>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -15,7 +14,6 @@
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 #include "robot/files/packages.h"
-#include "robot/files/sphere_file.h"
 #include "robot/files/xml.h"
 
 namespace prohull::robot {

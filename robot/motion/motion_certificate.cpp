@@ -9,7 +9,6 @@
 #include <system_error>
 #include <utility>
 
-#include "prohull/detail/summary.h"
 #include "prohull/mesh_io.h"
 #include "robot/motion/kinematics.h"
 

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <functional>
-#include <optional>
 #include <queue>
 
 #include "prohull/detail/progress_meter.h"
-#include "robot/motion/joint_chain.h"
 #include "robot/motion/kinematics.h"
-#include "robot/motion/proof_body.h"
 
 namespace prohull::robot {
 namespace {

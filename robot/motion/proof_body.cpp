@@ -3,9 +3,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <algorithm>
 #include <atomic>
-#include <limits>
 
 #include "prohull/convex_hull.h"
 

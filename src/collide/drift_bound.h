@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "collide/obb_tree.h"
 #include "prohull/detail/drift.h"

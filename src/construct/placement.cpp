@@ -1,7 +1,5 @@
 #include "construct/placement.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "geometry/predicates.h"

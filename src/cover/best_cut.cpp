@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <mutex>
 #include <numeric>
 #include <optional>

@@ -1,7 +1,6 @@
 #include "cover/extreme_points.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "prohull/convex_hull.h"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "prohull/convex_cover.h"
 
 namespace prohull::cover {

@@ -1,6 +1,5 @@
 #include "geometry/cones.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

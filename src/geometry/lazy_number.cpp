@@ -1,6 +1,7 @@
 #include "geometry/lazy_number.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 

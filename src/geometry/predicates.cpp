@@ -1,6 +1,5 @@
 #include "geometry/predicates.h"
 
-#include <cmath>
 #include <optional>
 
 #include "geometry/exact_number.h"

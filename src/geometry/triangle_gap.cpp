@@ -1,6 +1,5 @@
 #include "geometry/triangle_gap.h"
 
-#include <algorithm>
 #include <array>
 
 #include "geometry/exact_number.h"

@@ -1,7 +1,5 @@
 #include "hull/void_complex.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "io/text_scanner.h"
 #include "prohull/detail/names.h"

@@ -1,11 +1,9 @@
 #include "query/engine.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "geometry/triangle_contact.h"
 #include "query/exact_line.h"
-#include "query/line.h"
 
 namespace prohull {
 

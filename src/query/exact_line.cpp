@@ -1,7 +1,5 @@
 #include "query/exact_line.h"
 
-#include <array>
-
 #include "geometry/exact_number.h"
 #include "geometry/vector_of.h"
 

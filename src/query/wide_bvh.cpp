@@ -4,10 +4,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_reduce.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <tuple>
 
 #include "geometry/bvh.h"
 #include "prohull/error.h"

@@ -6,10 +6,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
 #include <limits>
-#include <optional>
 
 // Lanes are returned in another way with AVX2 than without: here they are by functions that are inlined. GCC says so at
 // the end of the unit.

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <vector>
 
 #include "prohull/repair.h"
 #include "prohull/triangle_mesh.h"

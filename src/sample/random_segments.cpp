@@ -1,6 +1,5 @@
 #include "prohull/detail/random_segments.h"
 
-#include <array>
 #include <random>
 
 #include "prohull/error.h"

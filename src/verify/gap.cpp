@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include "geometry/bvh.h"
 #include "geometry/triangle_distance.h"

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "geometry/bvh.h"
 #include "geometry/closest_point.h"

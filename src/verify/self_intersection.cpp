@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 
 #include "geometry/cones.h"
 #include "geometry/four_boxes.h"

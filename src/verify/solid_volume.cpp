@@ -5,14 +5,12 @@
 #include <limits>
 #include <random>
 #include <utility>
-#include <vector>
 
 #include "geometry/triangle_predicates.h"
 #include "prohull/detail/disjoint_sets.h"
 #include "verify/arrangement.h"
 #include "verify/cell.h"
 #include "verify/known_solid.h"
-#include "verify/surface.h"
 #include "verify/winding.h"
 
 namespace prohull::verify {

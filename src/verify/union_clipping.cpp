@@ -10,7 +10,6 @@
 #include "geometry/triangle_predicates.h"
 #include "geometry/vector_of.h"
 #include "verify/cell.h"
-#include "verify/solids.h"
 #include "verify/winding.h"
 
 // Points of the triangle are given by barycentric coordinates, up to a factor. There a plane is a line: its

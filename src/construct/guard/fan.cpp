@@ -1,7 +1,6 @@
 #include "construct/guard/fan.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cmath>
 

@@ -1,7 +1,6 @@
 #include "construct/tight/few_faces.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>

@@ -3,10 +3,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
-#include <vector>
 
 #include "geometry/predicates.h"
 #include "geometry/triangle_distance.h"

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "construct/placement.h"
 #include "geometry/apart_filter.h"

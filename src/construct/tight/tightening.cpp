@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "construct/guard/self_intersection_guard.h"
 #include "construct/tight/tight_placement.h"

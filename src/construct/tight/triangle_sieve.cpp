@@ -3,7 +3,6 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>

@@ -15,9 +15,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <new>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
