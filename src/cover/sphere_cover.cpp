@@ -16,6 +16,7 @@
 #include "cover/left_out.h"
 #include "cover/patches.h"
 #include "cover/wrap_around.h"
+#include "enclose/known_void.h"
 #include "geometry/largest_coordinate.h"
 #include "mesh/area.h"
 #include "parallel/arena.h"
@@ -90,8 +91,7 @@ class SphereCoverer {
       append(sheets, input_.caps);  // such as the other side of a loose triangle, whose solid has no surface
       const InsideVolume inside = volume_inside(input_, options_.progress);
       made_.original_volume = inside.volume, made_.is_estimated = inside.is_estimated;
-      cover::add_note_of_cavities(inside.volume, cover::fillable_volume(input_, inside, options_.progress),
-                                  made_.notes);
+      add_note_of_cavities(inside.volume, cover::fillable_volume(input_, inside, options_.progress), made_.notes);
     } else {
       wrap_solid();
       sheets = input_.original;

@@ -8,12 +8,12 @@
 #include <limits>
 #include <utility>
 
-#include "cover/cavities.h"
 #include "enclose/candidates.h"
 #include "enclose/known_void.h"
 #include "enclose/usable_options.h"
 #include "parallel/arena.h"
 #include "prohull/detail/float32_hull.h"
+#include "prohull/detail/rounded.h"
 #include "prohull/error.h"
 
 namespace prohull {
@@ -79,7 +79,7 @@ EnclosingHulls best_hulls(Request request, std::span<const std::size_t> target_f
   made.input = std::move(request.input);
   for (EnclosingHull& hull : made.hulls) {
     hull.void_ratio = known_void(made, hull);
-    if (solids.filled_volume()) cover::add_note_of_cavities(hull.verdict.original_volume, made.volume, hull.notes);
+    if (solids.filled_volume()) add_note_of_cavities(hull.verdict.original_volume, made.volume, hull.notes);
     hull.mesh = without_unused_vertices(std::move(hull.mesh));
   }
   return made;
@@ -107,6 +107,14 @@ double known_void(const EnclosingHulls& made, const EnclosingHull& hull) {
   if (!(made.volume > 0) || (!is_possible && made.is_estimated)) return std::numeric_limits<double>::quiet_NaN();
   constexpr double kRounding = 1e-9;
   return !is_possible && std::abs(ratio) < kRounding ? 0.0 : ratio;
+}
+
+bool add_note_of_cavities(double volume, double filled, std::vector<std::string>& notes) {
+  constexpr double kSame = 1 + 1e-6;
+  if (!(volume > 0 && filled > kSame * volume)) return false;
+  notes.push_back(fmt::format("cavities of the mesh count as filled: with them it has {} more volume",
+                              percent_text(filled / volume - 1, 2)));
+  return true;
 }
 
 Names<Repair> repair_names() { return kRepairNames; }
