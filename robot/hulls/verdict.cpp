@@ -51,8 +51,10 @@ void judge_hull(LinkHull& hull, const JudgedGeometry& geometry, const Budget& bu
   hull.self_intersections = found.self_intersections;
   TriangleMesh sealed = solid_of(input);
   if (!input.closed) append(sealed, input.caps);
+  const double around = geometry.curved.around;
+  const DistanceOptions how{.decides = distance_left(budget, around).value_or(0), .progress = go_on};
   measure_distances(hull, sealed, input, input.caps.face_count(), [&](const TriangleMesh& from) {
-    return from_forms(distance_bounds(hull.mesh, from, {.progress = go_on}), geometry.curved.around, hull.certified());
+    return from_forms(distance_bounds(hull.mesh, from, how), around, hull.certified());
   });
   if (budget.max_distance > 0 && hull.within_bounds && hull.verdict.distance().upper > budget.max_distance)
     hull.notes.emplace_back("keeps the largest distance only if the openings that its wrap closed count as closed");

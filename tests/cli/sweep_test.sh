@@ -60,7 +60,7 @@ expect 0 "poses" $sweep --poses poses.csv -o poses.stl
 expect 0 "poses cover the end" $prohull verify poses.stl end.off
 printf 'bar.off 1\n' >bad.csv
 expect 3 "no poses" $sweep --poses bad.csv -o no.stl
-says err "no poses" "bad.csv: line 1: 'bar.off' is not a number; expected x"
+says err "no poses" "bad.csv: a pose has 7 numbers, x,y,z,qw,qx,qy,qz; or 12, the upper three rows of a matrix of 4 x 4; or all 16; this one has 2"
 echo '# none' >bad.csv
 expect 3 "an empty file of poses" $sweep --poses bad.csv -o no.stl
 says err "an empty file of poses" "bad.csv: there are no poses"
