@@ -98,7 +98,7 @@ void Candidates::plan_bounded_wraps() {
   const double finest = finest_close_spacing(request_);
   const bool is_hopeless = kReach * finest > kNearerByMoving * max_distance;
   const bool may_be_close = may_stay_within() && is_close;
-  // Of 8 triangles, the close wrap is coarser than the loose one, and its hull nearer: 1.44 % of the diagonal, not 2.13.
+  // Of 8 triangles, the close wrap is coarser than the loose one, and its hull nearer: by a third.
   if (may_be_close && (!is_hopeless || finest >= finest_loose_spacing(request_))) plan_close_wraps();
   if (!may_be_close || is_hopeless) plan_loose_wraps();
   const bool is_too_close = may_stay_within() && finest > kCloseSpacing * max_distance;
