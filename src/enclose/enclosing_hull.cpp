@@ -12,6 +12,7 @@
 #include "enclose/known_void.h"
 #include "enclose/usable_options.h"
 #include "parallel/arena.h"
+#include "prohull/detail/finite.h"
 #include "prohull/detail/float32_hull.h"
 #include "prohull/detail/rounded.h"
 #include "prohull/error.h"
