@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <cstdint>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -16,8 +16,6 @@ struct Crossing {
   std::uint32_t line;
   float height;
   int winding;  ///< by how much it grows there
-
-  auto operator<=>(const Crossing&) const = default;
 };
 
 /// Lines along the longest side of the box around a mesh, through the middles of cells of its other two sides.
@@ -77,7 +75,7 @@ double estimated_volume(const TriangleMesh& closed) {
   const Lines lines(closed);
   std::vector<Crossing> crossings;
   for (const FaceId f : closed.triangles.ids()) lines.cross(closed.triangle(f), crossings);
-  std::ranges::sort(crossings);
+  std::ranges::sort(crossings, {}, [](const Crossing& c) { return std::tuple(c.line, c.height, c.winding); });
   double length = 0;
   int winding = 0;
   for (std::size_t i = 0; i + 1 < crossings.size(); ++i) {
