@@ -265,7 +265,7 @@ void add_bounds(CLI::App& command, BuildOptions& options) {
              "it.");
   add_optional_number(command, "--max-void", options.max_void_percent, kPositive,
                       "Largest allowed void, in per cent. The void is how much more volume the hull has than the mesh, "
-                      "caps on its openings included (an inner hull: how much less).")
+                      "caps on its openings and cavities that are filled included (an inner hull: how much less).")
       ->type_name("PERCENT");
 }
 

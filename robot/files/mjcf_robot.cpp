@@ -311,9 +311,15 @@ class MjcfRobotWriter {
     const auto note = [&](const char* what, const std::vector<std::string>& names) {
       if (!names.empty()) notes_.push_back(fmt::format("{}: {}", what, named(names)));
     };
+    const auto world = std::ranges::find(robot_.links, "world", &Link::name);
+    if (world != robot_.links.end()) {
+      const auto link = static_cast<std::size_t>(world - robot_.links.begin());
+      if (!is_world(link)) notes_.emplace_back("the link world is the body world_link: MuJoCo has a world of its own");
+      if (is_world(link) && inertials_[link]) left_out_.insert("the mass of world");
+    }
     note("not in it", {left_out_.begin(), left_out_.end()});
     note("joints with equal limits are fixed there", locked);
-    note("meshes that cannot be read, or are flat, are left out of", without_mesh_);
+    note("meshes that cannot be read, or are flat or tiny, are left out of", without_mesh_);
     note("links that move and have no mass weigh what MuJoCo computes from their collision geometry", of_geoms_);
     note("links that move and have neither mass nor collision geometry weigh 1 g, as MuJoCo refuses none",
          without_mass_);

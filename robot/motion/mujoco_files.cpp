@@ -37,6 +37,14 @@ bool is_flat(const TriangleMesh& mesh) {
   return std::ranges::none_of(mesh.positions, [&](const Vec3& p) { return std::abs(dot(n, p - origin)) > most; });
 }
 
+/// MuJoCo refuses volumes of less than 1e-15.
+bool is_tiny(const TriangleMesh& mesh) {
+  constexpr double kLeast = 1e-14;
+  const Box box = bounding_box(mesh);
+  const Vec3 size = box.max - box.min;
+  return size.x * size.y * size.z < kLeast;
+}
+
 /// Whether MuJoCo reads an STL file of the mesh, and that keeps its coordinates.
 bool fits_stl(const TriangleMesh& mesh) {
   const auto is_float = [](double x) { return double(float(x)) == x; };
@@ -66,7 +74,8 @@ class MujocoMeshes {
  private:
   std::string add(const MeshFile& mesh) {
     const auto triangles = std::make_shared<TriangleMesh>(finite_part(mesh_triangles(mesh)));
-    if (is_flat(*triangles)) throw InputError(Defect::InvalidOption, mesh.path.string() + ": it is flat");
+    if (is_flat(*triangles) || is_tiny(*triangles))
+      throw InputError(Defect::InvalidOption, mesh.path.string() + ": it is flat, or too small for MuJoCo");
     const std::string name = file_names_.of(mesh.path.stem().string());
     const path file = path("meshes/visual") / (name + (fits_stl(*triangles) ? ".stl" : ".obj"));
     files.push_back({file, [triangles](const path& target) { write_mesh(target, *triangles); }});

@@ -69,7 +69,7 @@ TEST(MjcfRobot, NamesWhatItLeavesOut) {
   EXPECT_EQ(made.text.find("<geom class"), std::string::npos);
   EXPECT_EQ(made.notes, (std::vector<std::string>{
                             "not in it: <gazebo>, <safety_controller>, effort limits",
-                            "meshes that cannot be read, or are flat, are left out of: a",
+                            "meshes that cannot be read, or are flat or tiny, are left out of: a",
                             "links that move and have neither mass nor collision geometry weigh 1 g, as MuJoCo refuses "
                             "none: b"}));
 }
@@ -96,6 +96,7 @@ TEST(MjcfRobot, OnlyARootIsTheWorld) {
   const MjcfRobot other =
       mjcf_of_urdf("<link name=\"world\"/><link name=\"a\"/>" + joint("j", "floating", "a", "world"));
   EXPECT_TRUE(says(other, "<body name=\"world_link\""));
+  EXPECT_EQ(other.notes.at(0), "the link world is the body world_link: MuJoCo has a world of its own");
   EXPECT_TRUE(says(other, "<joint name=\"j\" type=\"ball\"")) << "MuJoCo nests no free joints";
 }
 
