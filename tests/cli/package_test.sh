@@ -104,14 +104,14 @@ mv moved arm_safe
 expect 0 "it loads after it was moved" $prohull urdf arm_safe/arm.urdf --check --no-outside-files
 says out "all links have their meshes" "yes: the collision geometry covers the visual geometry of every link"
 is "no file names another place" sh -c '! grep -rlE "\.\./|elsewhere|ws/src" arm_safe --include=*.urdf --include=*.dae --include=*.obj --include=*.mtl'
-if /usr/bin/python3 -c "import colcon_ros, colcon_recursive_crawl" 2>/dev/null && [ -d /usr/share/ament_cmake ]; then
+if command -v colcon >/dev/null && /usr/bin/python3 -c "import colcon_ros, colcon_recursive_crawl" 2>/dev/null && [ -d /usr/share/ament_cmake ]; then
   mkdir -p colcon/src && cp -r arm_safe colcon/src
   expect 0 "colcon builds it" sh -c "cd colcon && colcon build --cmake-args -DPython3_EXECUTABLE=/usr/bin/python3"
   is "colcon installs it" test -s colcon/install/arm_safe/share/arm_safe/meshes/visual/wood_2.png
   expect 0 "it loads as installed" env AMENT_PREFIX_PATH="$PWD/colcon/install/arm_safe" \
     $prohull urdf colcon/install/arm_safe/share/arm_safe/arm.urdf --check
 else
-  echo "skipped: colcon's build needs ament-cmake, python3-colcon-ros and python3-colcon-recursive-crawl"
+  echo "skipped: colcon's build needs ament-cmake, colcon, python3-colcon-ros and python3-colcon-recursive-crawl"
 fi
 
 # --- again into the same folder ---
