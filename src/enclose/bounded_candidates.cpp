@@ -77,14 +77,14 @@ bool Candidates::has_passed_coarser_levels(const Ranking& ranking) const {
 // Where the coarsest level that would keep the bounds cannot move away by the gap: finer ones pass through themselves
 // less.
 void Candidates::plan_finer_levels() {
-  constexpr std::size_t kMostFaces = 16'000;  // to move away takes most of the time
+  constexpr std::size_t kMostMoved = 16'000;  // to move away takes most of the time
   for (const std::size_t part : {4, 2, 1})
     steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
       if (ranking.is_empty() || ranking.keeps_bounds() || !is_worth_the_mesh(solids)) return std::nullopt;
       Candidate candidate = of(0, solids);
       candidate.least_faces = solids[0].mesh.face_count() / part;
       const bool is_finer = candidate.least_faces > ranking.best().hull.mesh.face_count();
-      return is_finer && candidate.least_faces <= kMostFaces ? std::optional(candidate) : std::nullopt;
+      return is_finer && candidate.least_faces <= kMostMoved ? std::optional(candidate) : std::nullopt;
     });
 }
 
