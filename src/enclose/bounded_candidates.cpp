@@ -61,7 +61,7 @@ bool Candidates::is_worth_further(const Ranking& ranking) const {
   constexpr std::size_t kMostReduced = 4;
   const EnclosingHull* const last = ranking.last_kept();
   return last && may_go_further() && last_->recipe.method != Method::Further &&
-         (last->source != Source::Mesh || last_->recipe.method == Method::Tight) &&
+         (last->source != Source::Mesh || last_->recipe.moves || last_->recipe.method == Method::Tight) &&
          last->mesh.face_count() > target_faces_ &&
          last->mesh.face_count() <= kMostReduced * ranking.best().hull.mesh.face_count();
 }
