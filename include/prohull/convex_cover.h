@@ -56,7 +56,7 @@ struct ConvexCover {
   /// Distances are always theirs.
   bool volume_is_bound = false;
   double original_volume = 0;   ///< as EnclosingHulls::volume; 0 if it is not known
-  bool is_estimated = false;    ///< `original_volume` is an estimate, from a wrap
+  bool is_estimated = false;    ///< `original_volume` is an estimate
   double void_ratio = 0;        ///< volume / original_volume - 1; infinite if the triangles have no volume
   bool fills_cavities = false;  ///< the input has cavities, which count as filled: distances are not from them
   bool within_bounds = true;

@@ -122,8 +122,8 @@ struct EnclosingHulls {
   std::vector<EnclosingHull> hulls;  ///< one for each number of faces, in the order in which they were asked for
   /// Of what lies inside of the input, with the cavities that repairs have filled; 0 if nothing is known of it.
   double volume = 0;
-  /// `volume` is an estimate, from a wrap. Otherwise it is Verification::original_volume, or where cavities are filled
-  /// that of RepairedMesh::closed.
+  /// `volume` is an estimate, by lines or from a wrap. Else it is Verification::original_volume, or where cavities are
+  /// filled that of RepairedMesh::closed.
   bool is_estimated = true;
   double repair_seconds = 0;  ///< includes the wraps
 };

@@ -33,7 +33,7 @@ struct SphereCover {
   bool fills_wrap = false;         ///< the inside of the wrap is covered, as SphereCoverOptions::fill asks
   double volume = 0;               ///< of the union; overlaps count once
   double original_volume = 0;      ///< as EnclosingHulls::volume; 0 if the triangles bound nothing
-  bool is_estimated = false;       ///< `original_volume` is an estimate, from a wrap
+  bool is_estimated = false;       ///< `original_volume` is an estimate
   bool within_bounds = true;       ///< max_distance is kept
   std::vector<std::string> notes;  ///< sentences for the user
   double seconds = 0, verify_seconds = 0;

@@ -98,7 +98,7 @@ class LinkHull(NamedTuple):
     within_bounds: bool  #: whether max_distance holds
     source: Source  #: what it was built from
     volume_ratio: float  #: its volume / the volume inside of the geometry; nan if that encloses no space
-    volume_ratio_is_estimated: bool  #: whether the volume inside of the geometry is an estimate, from a wrap
+    volume_ratio_is_estimated: bool  #: whether the volume inside of the geometry is an estimate
     self_intersections: int  #: pairs of its faces that intersect
     notes: list[str]  #: what is not as it was asked for, and what is worth a look
 
@@ -132,7 +132,7 @@ class LinkCheck(NamedTuple):
     worst_point: Optional[tuple[float, float, float]]  #: such a point, in the frame of the link; None if none is known
     faces_outside: int  #: number of faces of the visual geometry that are not covered
     volume_ratio: float  #: volume of the collision geometry / volume inside of the visual geometry; may be nan
-    volume_ratio_is_estimated: bool  #: whether one of the two volumes is an estimate, from a wrap
+    volume_ratio_is_estimated: bool  #: whether one of the two volumes is an estimate
     distance_bound: float  #: how far the collision geometry reaches out of the visual one at most: proven; what is inside counts as 0
     mean_distance: float  #: the mean of the same distances over its surface, estimated
     notes: list[str]
