@@ -27,6 +27,8 @@ class Folder(unittest.TestCase):
     def path(self, name, content):
         """Of a file with this content."""
         path = os.path.join(self.folder.name, name)
+        if os.path.exists(path):
+            os.remove(path)  # to write over a file takes milliseconds on some file systems
         with open(path, "wb") as file:
             file.write(content if isinstance(content, bytes) else content.encode())
         return path
