@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "dyadic_points.h"
+#include "effort.h"
 #include "geometry/exact_triangles.h"
 #include "geometry/predicates.h"
 #include "random.h"
@@ -37,7 +38,7 @@ TEST(TrianglesTouch, AgreesWithCgalOnSmallGridsWithAndWithoutArea) {
   // Corners on a grid of 3x3x3, 4x4 in a plane, or 6 on a line, make every kind of contact frequent.
   std::mt19937 random(test_seed());
   int touching[3][3] = {}, apart[3][3] = {};
-  for (int i = 0; i < 60000; ++i) {
+  for (int i = 0; i < effort(60000, 20000); ++i) {
     const int dimension = 1 + i % 3;
     std::uniform_int_distribution<int> grid(0, dimension == 3 ? 2 : dimension == 2 ? 3 : 5);
     const auto corner = [&] {

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "effort.h"
 #include "geometry/exact_triangles.h"
 #include "random.h"
 
@@ -40,7 +41,7 @@ TEST(TrianglesIntersect, AgreesWithTheConstructedIntersectionOnSmallGrids) {
   // Corners on a grid of 3x3x3, or 4x4 in a plane, make every kind of contact frequent.
   std::mt19937 random(test_seed());
   int met = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < effort(20000, 7000); ++i) {
     const bool flat = i % 2;
     std::uniform_int_distribution<int> grid(0, flat ? 3 : 2);
     const auto corner = [&] { return Vec3{0.1 * grid(random), 0.1 * grid(random), flat ? 0.3 : 0.1 * grid(random)}; };

@@ -129,7 +129,7 @@ TEST(Enclosure, RejectsMutantsExactlyWhereTheyLoseAPartOfTheOriginal) {
   for (const TriangleMesh& original : originals(test_seed())) {
     const oracle::Chain original_chain(original);
     GrowingHull hull(original, test_seed());
-    for (int generation = 0; generation < 5; ++generation, ++hulls) {
+    for (int generation = 0; generation < effort(5, 3); ++generation, ++hulls) {
       ASSERT_TRUE(verify_enclosure(original, hull.mesh()).encloses) << "hull " << hulls;
       for (int i = 0; i < effort(3, 1); ++i) {
         const VertexId v = hull.random_vertex();
