@@ -33,6 +33,19 @@ Verification verdict_of(const TriangleMesh& hull, const Request& request, Solids
                  request.input);
 }
 
+/// The triangles of the input that the verdict names; with a cap, all caps: only faces of the file have numbers.
+TriangleMesh outside_of(const Verification& verdict, const RepairedMesh& input) {
+  TriangleMesh outside{input.original.positions, {}};
+  bool has_cap = false;
+  for (const Offender& o : verdict.worst)
+    if (index(o.face) < input.original.face_count())
+      outside.triangles.push_back(input.original.triangles[o.face]);
+    else
+      has_cap = true;
+  if (has_cap) append(outside, input.caps);
+  return outside;
+}
+
 bool encloses_mesh(EnclosingHull& hull, const Solid& solid, const Request& request, Solids& solids) {
   constexpr std::size_t kMostProtrusions = 200;
   const EnclosingOptions& options = request.options;
@@ -42,9 +55,7 @@ bool encloses_mesh(EnclosingHull& hull, const Solid& solid, const Request& reque
   hull.verdict = verdict_of(hull.mesh, request, solids, may_lift ? kMostProtrusions : 0, gap);
   if (hull.verdict.certified || !may_lift) return hull.verdict.certified;
   if (hull.verdict.worst.size() < hull.verdict.faces_outside) return false;
-  TriangleMesh outside{request.to_cover().positions, {}};
-  for (const Offender& o : hull.verdict.worst) outside.triangles.push_back(request.to_cover().triangles[o.face]);
-  auto lifted = lifted_until_covered(hull.mesh, outside, hull.verdict.worst,
+  auto lifted = lifted_until_covered(hull.mesh, outside_of(hull.verdict, request.input), hull.verdict.worst,
                                      request.hull_options(hull.target_faces, request.options.hull.seed));
   if (!lifted) return false;
   hull.mesh = std::move(*lifted);

@@ -745,6 +745,48 @@ TEST(EnclosingHull, OfASoupIsTheSameBesideOtherBudgets) {
   EXPECT_EQ(both.hulls[1].mesh, enclosing_hull(soup, 120, options).mesh);
 }
 
+// Two boxes that cross, without some of their faces: what the hull leaves uncovered are caps, which have no place among
+// the faces of the file.
+TEST(EnclosingHull, IsLiftedOverCaps) {
+  const TriangleMesh boxes = make({{-1, -1, -1},
+                                   {-1, 0, -1},
+                                   {-1, 0, 0},
+                                   {-1, -1, 0},
+                                   {1, -1, -1},
+                                   {1, 0, -1},
+                                   {1, 0, 0},
+                                   {1, -1, 0},
+                                   {0, -1, 0},
+                                   {1, 0, 0},
+                                   {0, 0, 0},
+                                   {0, -1, -1},
+                                   {1, -1, -1},
+                                   {1, 0, -1},
+                                   {0, 0, -1}},
+                                  {{0, 3, 2},
+                                   {0, 4, 7},
+                                   {0, 7, 3},
+                                   {1, 2, 6},
+                                   {1, 6, 5},
+                                   {6, 2, 10},
+                                   {2, 3, 8},
+                                   {2, 8, 10},
+                                   {9, 14, 13},
+                                   {10, 8, 11},
+                                   {11, 4, 0},
+                                   {12, 13, 5},
+                                   {13, 14, 1},
+                                   {13, 1, 5},
+                                   {14, 11, 0},
+                                   {14, 0, 1},
+                                   {3, 2, 6}});
+  for (const double share : {0.05, 0.1, 0.2})
+    for (const std::size_t faces : {12, 20}) {
+      const double bound = share * bounding_box(boxes).diagonal();
+      EXPECT_TRUE(enclosing_hull(boxes, faces, {.bounds = {.max_distance = bound}}).certified);
+    }
+}
+
 TEST(EnclosingHull, OfABladeTakesNoWrapOfManyMillionNodes) {
   const TriangleMesh blade = make({{0, 0, 0}, {1, 1, 1}, {0.6, 0.6, 0.55}, {1, 1, 0.8}}, {{0, 1, 2}, {0, 2, 3}});
   const std::size_t faces[]{20};
