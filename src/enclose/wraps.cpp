@@ -168,11 +168,12 @@ void Candidates::plan_inner() {
     return moved(0);
   });
   if (bounds_.any()) return plan_loose_wraps();
-  steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
-    if (ranking.has_certified() && ranking.best_void() >= -kMuchVoid) return std::nullopt;
-    const auto id = wrap(kWrapInside, spacing_for(kWrapInside), solids);
-    return id ? std::optional(moved(*id)) : std::nullopt;
-  });
+  for (const int finer : {1, 2, 4})  // where nothing is thick enough
+    steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+      if (ranking.has_certified() && (finer > 1 || ranking.best_void() >= -kMuchVoid)) return std::nullopt;
+      const auto id = wrap(kWrapInside, spacing_for(kWrapInside) / finer, solids);
+      return id ? std::optional(moved(*id)) : std::nullopt;
+    });
 }
 
 }  // namespace prohull

@@ -672,14 +672,33 @@ TEST(EnclosingHull, OfACloserBoundIsNoLooserWhereItIsMissed) {
   EXPECT_LE(void_within(1e-6), void_within(1e-3));
 }
 
+TriangleMesh open_strip() {
+  return make({{-1, 1, -1},
+               {1, 1, -1},
+               {-1, -2, 0},
+               {1, -1, -1},
+               {2, -2, 1},
+               {0, 1, -1},
+               {-2, 2, 2},
+               {1, 0, 2},
+               {1, -2, 2},
+               {-1, 2, 0}},
+              {{0, 1, 2}, {1, 2, 3}, {2, 3, 4}, {3, 4, 5}, {4, 5, 6}, {5, 6, 7}, {6, 7, 8}, {7, 8, 9}});
+}
+
+// What a level leaves of it has no volume.
+TEST(EnclosingHull, OnTheInnerSideIsTightOrAsItIsWithoutThat) {
+  TriangleMesh strip = open_strip();
+  for (Vec3& p : strip.positions) p = p * 0.001;
+  const EnclosingHull plain = enclosing_hull(strip, 4, {.hull = {.side = HullSide::Inner}});
+  const EnclosingHull tight = enclosing_hull(strip, 4, {.hull = {.side = HullSide::Inner}, .tight = true});
+  EXPECT_TRUE(plain.certified && tight.certified);
+  EXPECT_GE(signed_volume(tight.mesh), signed_volume(plain.mesh));
+}
+
 // That of a closer one had a finer wrap, whose hull was half as far again.
 TEST(EnclosingHull, OfAFarCloserBoundIsNoLooserEither) {
-  TriangleMesh strip;
-  strip.positions = {{-1, 1, -1}, {1, 1, -1}, {-1, -2, 0}, {1, -1, -1}, {2, -2, 1},
-                     {0, 1, -1},  {-2, 2, 2}, {1, 0, 2},   {1, -2, 2},  {-1, 2, 0}};
-  constexpr std::array<std::array<std::uint32_t, 3>, 8> kTriangles{
-      {{0, 1, 2}, {1, 2, 3}, {2, 3, 4}, {3, 4, 5}, {4, 5, 6}, {5, 6, 7}, {6, 7, 8}, {7, 8, 9}}};
-  for (const auto& [a, b, c] : kTriangles) strip.triangles.push_back({VertexId{a}, VertexId{b}, VertexId{c}});
+  const TriangleMesh strip = open_strip();
   const auto distance_within = [&](double share) {
     const double bound = share * bounding_box(strip).diagonal();
     return bound * enclosing_hull(strip, 20, {.bounds = {.max_distance = bound}}).excess;
