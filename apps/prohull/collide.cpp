@@ -53,8 +53,6 @@ Body read_body(const CollideOptions& options, const std::filesystem::path& path)
     auto& mesh = std::get<TriangleMesh>(read);
     const CollisionIndex index(mesh);
     const SolidNotes notes = is_closed(mesh) ? SolidNotes::turning(mesh, path) : SolidNotes::not_closed(path);
-    if (options.conservative && !notes.hollow.empty())
-      throw InputError(Defect::NoVolume, notes.hollow + ", and --conservative needs a hull that encloses something");
     if (options.conservative && !notes.open.empty())
       throw InputError(Defect::OpenEdge,
                        "it is not closed, so that it encloses nothing, which --conservative could tell of; `prohull "

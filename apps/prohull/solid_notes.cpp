@@ -11,17 +11,16 @@ namespace prohull::cli {
 SolidNotes SolidNotes::turning(TriangleMesh& closed, const std::filesystem::path& path) {
   OutwardSolid solid = outward_solid(std::move(closed), input_name(path));
   closed = std::move(solid.mesh);
-  return {std::move(solid.turned), std::move(solid.hollow), {}};
+  return {std::move(solid.turned), {}};
 }
 
 SolidNotes SolidNotes::not_closed(const std::filesystem::path& path) {
   return {{},
-          {},
           input_name(path) + " is not closed: only its faces count, not what lies inside (`prohull repair` closes it)"};
 }
 
 std::vector<std::string> SolidNotes::all() const {
-  std::vector<std::string> sentences{turned, hollow, open};
+  std::vector<std::string> sentences{turned, open};
   std::erase(sentences, "");
   return sentences;
 }

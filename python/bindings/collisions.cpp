@@ -4,6 +4,7 @@
 #include "arrays.h"
 #include "module.h"
 #include "prohull/detail/collision_levels.h"
+#include "prohull/detail/inside_out.h"
 #include "watch.h"
 
 namespace py = pybind11;
@@ -72,7 +73,10 @@ void bind_collisions(py::module_& module) {
   py::class_<CollisionIndex>(module, "CollisionIndex")
       .def(py::init([](const TriangleMesh& mesh) {
         const py::gil_scoped_release released;
-        return CollisionIndex(mesh);
+        const CollisionIndex as_given(mesh);
+        if (!is_closed(mesh)) return as_given;
+        const OutwardSolid solid = outward_solid(mesh, "the mesh");
+        return solid.turned.empty() ? as_given : CollisionIndex(solid.mesh);
       }))
       .def(py::init([](const ProgressiveHull& levels, bool conservative) {
         const py::gil_scoped_release released;

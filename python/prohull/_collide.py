@@ -31,7 +31,7 @@ class Distances(NamedTuple):
 class Collider:
     """A mesh made ready for collisions. Built once, it serves every pose, and any number of threads.
 
-    A closed mesh stands for a solid: its faces and what it winds around. Any other mesh stands for its faces alone. A
+    A closed mesh stands for a solid: its faces and what is inside, also if it is inside out. Any other mesh stands for its faces alone. A
     .phull file stands for the original in it, and only collides(..., conservative=True) asks its coarsest hull; a Hull
     stands for itself. All methods take these arguments:
 
@@ -80,7 +80,7 @@ class Collider:
 
     @property
     def is_solid(self) -> bool:
-        """Whether the mesh is closed, and not inside out in all components, so that what lies inside of it collides."""
+        """Whether the mesh is closed, so that what lies inside of it collides."""
         return self._core.is_solid
 
     def collides(self, other: Union["Collider", MeshLike], poses: Optional[ArrayLike] = None, *,

@@ -33,7 +33,7 @@ struct Shapes {
     if (mesh.face_count() == 0) return;
     if (!is_closed(mesh)) return append(open, mesh);
     const OutwardSolid solid = outward_solid(std::move(mesh), name);
-    std::ranges::move(solid.notes(), std::back_inserter(notes));
+    if (!solid.turned.empty()) notes.push_back(solid.turned);
     append(closed, solid.mesh), append(within, solid.mesh);
   }
 

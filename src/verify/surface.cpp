@@ -108,6 +108,7 @@ struct Components {
   }
 
   Facing facing(FaceId f) const { return orientation.components[of_face[index(f)]]; }
+  bool is_unclear(FaceId f) const { return facing(f) == Facing::Unclear; }
   bool is_turned(FaceId f) const { return orientation.turn_all != (facing(f) == Facing::InsideOut); }
   bool is_inside_out(FaceId f) const { return orientation.inside_out[of_face[index(f)]]; }
 
@@ -115,10 +116,12 @@ struct Components {
   Orientation orientation;
 };
 
-Turned turn(TriangleMesh& mesh, const Components& components) {
+/// Turns the faces for which `is_one` holds.
+template <class Predicate>
+Turned turn(TriangleMesh& mesh, const Components& components, const Predicate& is_one) {
   Turned turned;
   for (const FaceId f : mesh.triangles.ids()) {
-    if (!components.is_turned(f)) continue;
+    if (!is_one(f)) continue;
     auto& t = mesh.triangles[f];
     std::swap(t[1], t[2]);
     if (t[1] == t[2]) continue;
@@ -186,13 +189,14 @@ bool is_one_sheet(const TriangleMesh& mesh) {
 
 Turned turn_outwards(TriangleMesh& mesh, std::string_view name) {
   require_usable(mesh, name);
-  return turn(mesh, Components(mesh));
+  const Components components(mesh);
+  return turn(mesh, components, [&](FaceId f) { return components.is_turned(f); });
 }
 
 std::vector<FaceId> turn_outwards_and_fill(TriangleMesh& mesh, std::string_view name) {
   require_usable(mesh, name);
   const Components components(mesh);
-  turn(mesh, components);
+  turn(mesh, components, [&](FaceId f) { return components.is_turned(f); });
   std::vector<FaceId> kept;
   for (const FaceId f : mesh.triangles.ids())
     if (components.facing(f) != Facing::Cavity) kept.push_back(f);
@@ -203,26 +207,22 @@ std::vector<FaceId> turn_outwards_and_fill(TriangleMesh& mesh, std::string_view 
 
 namespace prohull {
 
-std::vector<std::string> OutwardSolid::notes() const {
-  std::vector<std::string> all{turned, hollow};
-  std::erase(all, "");
-  return all;
-}
-
 OutwardSolid outward_solid(TriangleMesh closed, const std::string& name) {
   require_usable(closed, name);
-  OutwardSolid solid{std::move(closed), {}, {}};
+  OutwardSolid solid{std::move(closed), {}};
   TriangleMesh& mesh = solid.mesh;
   const verify::Components components(mesh);
-  const std::size_t turned = verify::turn(mesh, components).faces;
-  const auto stays = [&](FaceId f) { return components.facing(f) == Facing::Unclear; };
-  const auto turns = [&](FaceId f) { return components.is_inside_out(f) && !stays(f); };
-  if (turned > 0)
-    solid.turned =
-        (turned == mesh.face_count() ? name + " is inside out" : verify::described(components, mesh, name, turns)) +
-        ": it was turned, so that its inside counts as solid";
-  if (const std::string hollow = verify::described(components, mesh, name, stays); !hollow.empty())
-    solid.hollow = hollow + ": nothing is inside of it (turn it where the mesh was made: it crosses or repeats others)";
+  // What crosses others may be meant as a hole, or as a part that was drawn inside out. Solid holds for both.
+  const std::size_t turned = verify::turn(mesh, components, [&](FaceId f) {
+                               return components.is_turned(f) != components.is_unclear(f);
+                             }).faces;
+  if (turned == 0) return solid;
+  const bool is_unclear = std::ranges::count(components.orientation.components, Facing::Unclear) > 0;
+  solid.turned =
+      (turned == mesh.face_count()
+           ? name + " is inside out"
+           : verify::described(components, mesh, name, [&](FaceId f) { return components.is_inside_out(f); })) +
+      (is_unclear ? " and crosses or repeats others" : "") + ": it was turned, so that its inside counts as solid";
   return solid;
 }
 

@@ -522,14 +522,15 @@ awk '/^f/ { print $1, $2, $4, $3; next } 1' cube.obj >turned.obj
   grep '^f' cube.obj
   awk '/^f / { print "f", $2 + 8, $4 + 8, $3 + 8 }' cube.obj
 } >crossing.obj
-expect 0 "what repair does not turn" $prohull contains crossing.obj --random 9
-says_not out "what repair does not turn" "prohull repair"
-says out "what repair does not turn" "it crosses or repeats others"
-expect 0 "what repair does not turn, with -q" $prohull contains crossing.obj --random 9 -q --report crossing.json
-says err "what repair does not turn, with -q" "nothing is inside of it"
-says crossing.json "what repair does not turn, in the report" "nothing is inside of it"
-expect 3 "what encloses nothing, conservatively" $prohull collide crossing.obj cube.obj --conservative
-says err "what encloses nothing, conservatively" "the component of face 12 of crossing.obj is inside out"
+said="the component of face 12 of crossing.obj is inside out and crosses or repeats others: it was turned"
+awk '/^v / { print "v", 1.2 + 0.1 * $2, 1.2 + 0.1 * $3, 1.2 + 0.1 * $4; next } 1' cube.obj >inner.obj
+expect 1 "what crosses others inside out" $prohull collide crossing.obj inner.obj
+says out "what crosses others inside out" "$said"
+expect 1 "what crosses others inside out, conservatively" $prohull collide crossing.obj inner.obj --conservative
+printf '1.25,1.25,1.25\n0.25,0.25,0.25\n0.75,0.75,0.75\n' >inside.csv
+expect 0 "what crosses others inside out, points" $prohull contains crossing.obj --points inside.csv --report crossing.json
+says out "what crosses others inside out, points" "3 of 3 points inside"
+says crossing.json "what crosses others inside out, in the report" "$said"
 expect 3 "what is not closed has a name" $prohull collide cube.obj bucket.obj --conservative
 says err "what is not closed has a name" "bucket.obj: it is not closed"
 expect 0 "an inner hierarchy" $prohull build rock.ply --side inner --faces 100 -o inner.obj --hierarchy inner.phull
