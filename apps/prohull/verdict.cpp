@@ -23,16 +23,11 @@ SizeComparison::SizeComparison(const Box& hull, std::size_t hull_faces, const Bo
 bool SizeComparison::is_doubtful() const { return ratio_ >= limit_; }
 
 std::string SizeComparison::doubt() const {
-  constexpr double kFactors[]{10, 12, 25.4, 100, 304.8, 1000};  // of two units, and a hull is somewhat larger
-  constexpr double kLeast = 0.9, kMost = 1.2;
-  double said = ratio_;
-  for (const double factor : kFactors)
-    if (ratio_ > kLeast * factor && ratio_ < kMost * factor) said = factor;
   const bool is_outer = side_ == HullSide::Outer;
   return fmt::format(
-      "the {} is about {} times as large as the {}: are their units different? If so, give the original its --unit or "
+      "the {} is {:.4g} times as large as the {}: are their units different? If so, give the original its --unit or "
       "--scale; if not, say --any-scale",
-      is_outer ? "hull" : "original", said == 1000 ? "1,000" : fmt::format("{:.4g}", said),
+      is_outer ? "hull" : "original", ratio_,
       is_outer ? "original" : "hull");
 }
 

@@ -31,16 +31,15 @@ struct UnitPair {
 };
 constexpr std::array kUnitPairs{UnitPair{1000, "metres and the other in millimetres"},
                                 UnitPair{25.4, "inches and the other in millimetres"}};
-constexpr double kAbout = 1.5;  ///< a coarse hull is so much larger than what it encloses
+constexpr double kAbout = 1.35; ///< a coarse hull is so much larger than what it encloses
 
 void note_units(const Box& hull, const Box& original, std::vector<std::string>& notes) {
   const double small = std::min(hull.diagonal(), original.diagonal());
   const double ratio = std::max(hull.diagonal(), original.diagonal()) / small;
   for (const auto& [factor, what] : kUnitPairs)
     if (ratio > factor / kAbout && ratio < factor * kAbout)
-      notes.push_back(fmt::format("the hull is about {} times {} than the original: perhaps one of them is in {}",
-                                  factor == 1000 ? "1,000" : "25.4", small == hull.diagonal() ? "smaller" : "larger",
-                                  what));
+      notes.push_back(fmt::format("the hull is {:.4g} times {} than the original: perhaps one of them is in {}", ratio,
+                                  small == hull.diagonal() ? "smaller" : "larger", what));
 }
 
 void note_place(const Box& hull, const Box& original, std::vector<std::string>& notes) {
