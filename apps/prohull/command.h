@@ -21,7 +21,7 @@ constexpr int kDone = 0;
 constexpr int kAnswerIsNo = 1;  // verify failed, or a budget was not reached and --strict
 constexpr int kWrongUsage = 2;
 constexpr int kBadInput = 3;
-constexpr int kUndecided = 4;  // verify found neither yes nor no within its --steps
+constexpr int kUndecided = 4;  // neither yes nor no was found within --steps or --cells
 constexpr int kInterrupted = 130;
 
 constexpr const char* kWhatItIs = "progressive hulls of triangle meshes";

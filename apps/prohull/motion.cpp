@@ -284,9 +284,10 @@ std::string curve_csv(const Decision& decision) {
   return text;
 }
 
-bool is_as_asked(const Decision& decision, std::size_t p) {
-  return decision.proofs[p].verdict() == PathVerdict::Free &&
-         !first_beyond_limits(decision.file.robot, decision.paths[p]);
+int exit_code(const Decision& decision, std::size_t p) {
+  const PathVerdict verdict = decision.proofs[p].verdict();
+  if (verdict == PathVerdict::Meets || first_beyond_limits(decision.file.robot, decision.paths[p])) return kAnswerIsNo;
+  return verdict == PathVerdict::Free ? kDone : kUndecided;
 }
 
 /// The robot along the path, and what stands around it.
@@ -299,7 +300,7 @@ std::string page_of(const PathOptions& options, const Decision& decision) {
   robot.motion->verdict = verdict_text(options, decision, 0);
   if (const std::string beyond = beyond_text(decision.file.robot, path); !beyond.empty())
     robot.motion->verdict += "; " + beyond;
-  robot.motion->is_good = is_as_asked(decision, 0);
+  robot.motion->is_good = exit_code(decision, 0) == kDone;
   std::vector<view::Shown> shown{{options.in.filename().string(), std::move(robot)}};
   for (const WorldMesh& mesh : decision.world) shown.push_back({mesh.name, mesh.mesh});
   return view::page(
@@ -352,15 +353,16 @@ int run_motion(PathOptions options) {
   say_robot(file);
   for (const std::string& note : decision.made.notes) say("  {}\n", note);
   if (!options.world.empty()) say("{}", frame_text(file, "--world"));
-  bool all = true;
+  std::vector<int> exit_codes;
   for (std::size_t p = 0; p < decision.paths.size(); ++p)
-    say_path(options, decision, p), all &= is_as_asked(decision, p);
+    say_path(options, decision, p), exit_codes.push_back(exit_code(decision, p));
   const std::string rest =
       decision.left_out.empty() ? "" : fmt::format(", {} left out", grouped(decision.left_out.size()));
   say("  {} of bodies{}; read and index {:.2f} s, prove {:.3f} s\n", counted(decision.pairs.size(), "pair"), rest,
       read_seconds, seconds);
   say("{}", certificate);
-  return all ? kDone : kAnswerIsNo;
+  const bool is_refused = std::ranges::count(exit_codes, kAnswerIsNo) > 0;
+  return is_refused ? kAnswerIsNo : std::ranges::max(exit_codes);
 }
 
 void add_world(CLI::App& command, PathOptions& options) {
@@ -395,7 +397,7 @@ void add_motion(CLI::App& app, Run& run) {
       "Decides whether a robot is free all along a path: proven at every moment, not sampled. Otherwise it finds the "
       "first moment at which two links, or a link and the world, meet, as closely as --cells allows, and says before "
       "which moment the path is proven free. The exit code is 0 if all paths are free and "
-      "within the limits of the joints, and 1 if one is not.");
+      "within the limits of the joints, 1 if one is not, and 4 if that is open.");
   add_value(command, "in", options->in, "ROBOT",
             "Robot: URDF, SDF or MJCF. A .xacro file is expanded by the program xacro, if that is installed.")
       ->required();

@@ -120,7 +120,7 @@ fi
 
 # --- open ---
 printf 'slide,slide.velocity\n1.000001,-4\n1.000001,4\n' >close.csv
-expect 1 "open" $motion close.csv --cells 10
+expect 4 "open" $motion close.csv --cells 10
 says out "open" "OPEN from row "
 says out "why it is open" "base and cart: the number of cells is used up"
 expect 0 "with more cells it is free" $motion close.csv
@@ -205,7 +205,7 @@ expect 3 "a lost mesh" $prohull motion lost.urdf free.csv
 says err "a lost mesh" "lost.stl"
 sed 's|<link name="rail">.*|<link name="rail"><collision><geometry><ellipsoid size="1 1 1"/></geometry></collision></link>|' \
   slide.urdf >unread.urdf
-expect 1 "geometry that is not read is not free" $prohull motion unread.urdf free.csv
+expect 4 "geometry that is not read is not free" $prohull motion unread.urdf free.csv
 says out "geometry that is not read is not free" "OPEN from 0 s to 2 s: rail and flag: its geometry of type ellipsoid is not read"
 
 # --- the arm, and Ctrl-C ---
