@@ -5,12 +5,11 @@
 
 namespace prohull::cover {
 
-// Covers fill the cavities of a mesh, as outer hulls do. The void of covers is compared with the mesh as it is, that of
-// hulls with the filled one.
+// Covers fill the cavities of a mesh, as outer hulls do, and their void is compared with that of the filled one.
 
-/// The volume of the closed mesh, which has no cavities. `inside` is the volume of the mesh as it is.
-inline double fillable_volume(const RepairedMesh& input, const InsideVolume& inside, const Progress& progress) {
-  return input.repairs.dropped_components > 0 ? volume_inside(input.closed->mesh, progress).volume : inside.volume;
+/// The volume of the mesh with its cavities filled. `inside` is that of the mesh as it is.
+inline InsideVolume filled_volume(const RepairedMesh& input, const InsideVolume& inside, const Progress& progress) {
+  return input.closed && input.repairs.dropped_components > 0 ? volume_inside(input.closed->mesh, progress) : inside;
 }
 
 }  // namespace prohull::cover

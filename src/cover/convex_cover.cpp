@@ -67,8 +67,7 @@ struct Material {
   TriangleMesh faces;    ///< pieces are fitted to these
   TriangleMesh coarse;   ///< like the solid, or the faces where there is none, but few: cuts are looked for in it
   TriangleMesh coarser;  ///< around `coarse`, for the wide search
-  InsideVolume inside;   ///< of the mesh
-  double fillable = 0;   ///< the same with the cavities that the solid does not have
+  InsideVolume inside;   ///< of the mesh, with its cavities
 };
 
 /// Vertices within the cubes of a grid become one.
@@ -180,13 +179,14 @@ class Covering {
       : options_(options),
         prepared_(prepared_for_hulls(std::move(triangles), enclosing_options(options.threads, options.progress))),
         hull_(convex_hull(prepared_.original)),
-        inside_(prepared_.closed || is_closed(prepared_.original) ? volume_inside(prepared_, options.progress)
-                                                                  : InsideVolume()),
-        fillable_(prepared_.closed ? fillable_volume(prepared_, inside_, options.progress) : 0) {}
+        inside_without_cavities_(prepared_.closed || is_closed(prepared_.original)
+                                     ? volume_inside(prepared_, options.progress)
+                                     : InsideVolume()),
+        inside_(filled_volume(prepared_, inside_without_cavities_, options.progress)) {}
 
   ConvexCover run() {
     ConvexCover cover = certified_cover();
-    cover.fills_cavities = add_note_of_cavities(inside_.volume, fillable_, cover.notes);
+    cover.fills_cavities = add_note_of_cavities(inside_without_cavities_.volume, inside_.volume, cover.notes);
     add_note_of_left_out(prepared_.repairs, cover.notes);
     return cover;
   }
@@ -274,15 +274,13 @@ class Covering {
   Material of_closed_mesh(const TriangleMesh& like) const {
     TriangleMesh faces = prepared_.closed->mesh;
     append(faces, prepared_.dropped);
-    Material material = of_solid(prepared_.closed->mesh, std::move(faces), inside_, like);
-    material.fillable = fillable_;
-    return material;
+    return of_solid(prepared_.closed->mesh, std::move(faces), inside_, like);
   }
 
   Material of_solid(const TriangleMesh& closed, TriangleMesh faces, InsideVolume volume,
                     const TriangleMesh& like) const {
     TriangleMesh coarse = with_faces(like, kSearchFaces), coarser = with_faces(coarse, kWideSearchFaces);
-    return {closed, std::move(faces), std::move(coarse), std::move(coarser), volume, volume.volume};
+    return {closed, std::move(faces), std::move(coarse), std::move(coarser), volume};
   }
 
   /// The mesh, or a hull around it of so many faces.
@@ -323,7 +321,7 @@ class Covering {
   }
 
   /// One piece.
-  Material of_convex_hull() const { return {hull_, hull_, hull_, hull_, inside_, fillable_}; }
+  Material of_convex_hull() const { return {hull_, hull_, hull_, hull_, inside_}; }
 
   /// The most pieces; or as few as keep the bounds, or fill the mesh.
   ConvexCover best_cover(const Material& material) {
@@ -351,8 +349,7 @@ class Covering {
 
   /// Pieces that fill the mesh, but for rounding, may be more than that takes: not every way to cut it ends in few.
   bool suffices(const ConvexCover& cover, const Material& material) const {
-    return options_.bounds.any() ? cover.within_bounds
-                                 : material.fillable > 0 && cover.volume < (1 + kNoVoid) * material.fillable;
+    return options_.bounds.any() ? cover.within_bounds : cover.volume < (1 + kNoVoid) * material.inside.volume;
   }
 
   CutSearch search_of(const Material& material) const {
@@ -513,9 +510,8 @@ class Covering {
 
   const ConvexCoverOptions& options_;
   const RepairedMesh prepared_;
-  const TriangleMesh hull_;    // the convex hull of the triangles; without faces if they lie in a plane
-  const InsideVolume inside_;  // of the triangles, if they can be closed
-  const double fillable_;      // the same with cavities
+  const TriangleMesh hull_;  // the convex hull of the triangles; without faces if they lie in a plane
+  const InsideVolume inside_without_cavities_, inside_;  // of the triangles, if they can be closed
 };
 
 }  // namespace

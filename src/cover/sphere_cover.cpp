@@ -89,9 +89,10 @@ class SphereCoverer {
     if (input_.closed) {
       solid_ = input_.closed->mesh, sheets = input_.dropped;
       append(sheets, input_.caps);  // such as the other side of a loose triangle, whose solid has no surface
-      const InsideVolume inside = volume_inside(input_, options_.progress);
+      const InsideVolume as_it_is = volume_inside(input_, options_.progress);
+      const InsideVolume inside = cover::filled_volume(input_, as_it_is, options_.progress);
       made_.original_volume = inside.volume, made_.is_estimated = inside.is_estimated;
-      add_note_of_cavities(inside.volume, cover::fillable_volume(input_, inside, options_.progress), made_.notes);
+      add_note_of_cavities(as_it_is.volume, inside.volume, made_.notes);
     } else {
       wrap_solid();
       sheets = input_.original;
