@@ -264,7 +264,7 @@ class Covering {
 
   bool is_better(const ConvexCover& a, const ConvexCover& b) const {
     const auto rank = [&](const ConvexCover& cover) {
-      return std::tuple(!cover.verdict.certified, !cover.within_bounds, options_.bounds.any() ? cover.pieces.size() : 0,
+      return std::tuple(!cover.verdict.certified, excess(cover), options_.bounds.any() ? cover.pieces.size() : 0,
                         cover.volume);
     };
     return rank(a) < rank(b);
@@ -335,7 +335,13 @@ class Covering {
       count -= std::max<std::size_t>(1, count / 6);
       best = fitted(tree_of(search, count, material), count, solid, material);
     }
+    // Where the most pieces miss the bounds, fewer may keep them, or miss them by less: around a wrist, 52 pieces reach
+    // out by 3.0 % of the diagonal, and 21 by 1.6 %.
     std::size_t low = 0, high = most;  // the cover of `low` pieces does not suffice
+    for (std::size_t count = most / 2; options_.bounds.any() && !best.within_bounds && count > 0; count /= 2) {
+      ConvexCover cover = fitted(tree_of(search, count, material), count, solid, material);
+      if (is_better(cover, best)) best = std::move(cover), high = count;
+    }
     while (suffices(best, material) && high - low > 1) {
       const std::size_t middle = (low + high) / 2;
       ConvexCover cover = fitted(tree_of(search, middle, material), middle, solid, material);
@@ -498,14 +504,16 @@ class Covering {
     if (std::ranges::any_of(cover.pieces, is_round)) from_solid.lower = from_triangles.lower = 0;
     cover.verdict.distance_to_triangles = from_triangles;
     if (prepared_.closed) cover.verdict.distance_to_solid = from_solid;
-    cover.within_bounds = keeps_bounds(cover);
+    cover.within_bounds = excess(cover) == 0;
     return cover;
   }
 
-  bool keeps_bounds(const ConvexCover& cover) const {
+  /// By what factor the bound is missed that is missed by most; 0 if all are kept.
+  double excess(const ConvexCover& cover) const {
     const HullBounds& b = options_.bounds;
-    return cover.verdict.distance().upper <= b.max_distance && cover.void_ratio <= b.max_void_ratio &&
-           cover.volume - cover.original_volume <= b.max_added_volume;
+    const auto of = [](double value, double bound) { return value <= bound ? 0.0 : value / bound; };
+    return std::max({of(cover.verdict.distance().upper, b.max_distance), of(cover.void_ratio, b.max_void_ratio),
+                     of(cover.volume - cover.original_volume, b.max_added_volume)});
   }
 
   const ConvexCoverOptions& options_;

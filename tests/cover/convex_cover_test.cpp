@@ -79,6 +79,16 @@ TEST(ConvexCover, FillsCavitiesAndTellsTheirVolume) {
   EXPECT_TRUE(convex_cover(hollow_cube(), {.max_pieces = 3, .bounds = {.max_void_ratio = 0.05}}).within_bounds);
 }
 
+// More pieces of it reach as far.
+TEST(ConvexCover, ThatMissesABoundIsNoFartherThanFewerPieces) {
+  const TriangleMesh bracket = make_sample("bracket", 300);
+  const ConvexCover plain = convex_cover(bracket, {.max_pieces = 24}),
+                    missed = convex_cover(bracket, {.max_pieces = 24, .bounds = {.max_distance = 1e-3}});
+  EXPECT_FALSE(missed.within_bounds);
+  EXPECT_LE(missed.verdict.distance().upper, plain.verdict.distance().upper);
+  EXPECT_LT(missed.pieces.size(), plain.pieces.size());
+}
+
 TEST(ConvexCover, OfABoxIsTheBox) {
   const ConvexCover cover = convex_cover(meshes::box({0, 0, 0}, {1, 2, 3}));
   ASSERT_EQ(cover.pieces.size(), 1u);
