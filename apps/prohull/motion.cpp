@@ -366,26 +366,22 @@ int run_motion(PathOptions options) {
 }
 
 void add_world(CLI::App& command, PathOptions& options) {
-  constexpr const char* kWhat = "What may meet what";
+  add_unit_options(command, options.input, "the meshes of the world");
+  const Heading heading(command, "What may meet what");
   add_value(
       command, "--world", options.world, "MESH",
       std::string("Mesh that stands still in the frame of the robot's root, in metres unless --unit says otherwise; "
                   "may be given several times. It is called by the name of its file without the suffix. ") +
           kMeshFiles)
-      ->allow_extra_args(false)
-      ->group(kWhat);
-  add_unit_options(command, options.input, "the meshes of the world");
+      ->allow_extra_args(false);
   add_value(
       command, "--ignore", options.ignored, "A,B",
       "Two bodies that may touch, links or meshes of the world, as in base_link,table; may be given several times.")
-      ->allow_extra_args(false)
-      ->group(kWhat);
+      ->allow_extra_args(false);
   add_value(command, "--srdf", options.srdf, "FILE.srdf",
-            "SRDF file, the disabled pairs of links of which are not checked.")
-      ->group(kWhat);
+            "SRDF file, the disabled pairs of links of which are not checked.");
   add_choice(command, "--geometry", options.geometry, geometry_names(),
-             "Geometry of the links that counts. A link that has none of it counts by the other one.")
-      ->group(kWhat);
+             "Geometry of the links that counts. A link that has none of it counts by the other one.");
 }
 
 }  // namespace

@@ -103,6 +103,18 @@ CLI::Option* add_choice(CLI::App& command, const std::string& names, Value& valu
 CLI::Option* add_length(CLI::App& command, const std::string& names, Length& length, const std::string& description,
                         const std::string& mesh = "the mesh");
 
+/// The options of a command that are added until the end of the scope stand under a heading of their own.
+class Heading {
+ public:
+  Heading(CLI::App& command, const char* name) : defaults_(*command.option_defaults()) { defaults_.group(name); }
+  Heading(const Heading&) = delete;
+  Heading& operator=(const Heading&) = delete;
+  ~Heading() { defaults_.group("Options"); }
+
+ private:
+  CLI::OptionDefaults& defaults_;
+};
+
 /// `note` says what the threads do not change.
 void add_threads_option(CLI::App& command, unsigned& threads, const std::string& note);
 void add_report_option(CLI::App& command, std::filesystem::path& path);

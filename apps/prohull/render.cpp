@@ -382,102 +382,84 @@ int run_render(const RenderOptions& options) {
 constexpr const char* kForPanels = " Given once, for all panels, or once for each.";
 
 void add_content_options(CLI::App& command, RenderOptions& options) {
-  constexpr const char* kContent = "What is drawn";
+  const Heading heading(command, "What is drawn");
   add_value(command, "--faces", options.faces, "N[,N...]",
             "Levels of .phull files to draw, each in a panel: numbers of faces, or original for the original mesh. "
             "Without this option the coarsest level is drawn.")
       ->delimiter(',')
-      ->allow_extra_args(false)
-      ->group(kContent);
+      ->allow_extra_args(false);
   add_value(command, "--over", options.over, "MESH",
             std::string("Draw IN translucent over this mesh or robot, or over its own original mesh, if that is "
                         "original and IN is a .phull file; none draws it over nothing.") +
                 kForPanels)
-      ->allow_extra_args(false)
-      ->group(kContent);
+      ->allow_extra_args(false);
   add_value(command, "--split", options.split, "MESH",
             std::string("Draw IN in the left half of its panel and this mesh in the right half. original and none mean "
                         "the same as with --over.") +
                 kForPanels)
-      ->allow_extra_args(false)
-      ->group(kContent);
+      ->allow_extra_args(false);
   add_value(command, "--explode", options.explosions, "FACTOR",
             std::string("Draw each part of IN in a colour of its own, and move it away from the middle by this factor, "
                         "0 to 100; 0 moves nothing, and none draws one mesh of one colour. Parts are what shared "
                         "vertices connect, such as the pieces of `prohull convex`.") +
                 kForPanels)
-      ->allow_extra_args(false)
-      ->group(kContent);
+      ->allow_extra_args(false);
   add_value(command, "--segment", options.segment, "X,Y,Z,X,Y,Z",
-            "Draw this segment, and a mark where it crosses IN, or the mesh that IN is drawn over.")
-      ->group(kContent);
-  command
-      .add_flag("--refine", options.refine,
-                "Refine the hull of a .phull file where the --segment meets it, as Platis and Theoharis (2003) do. "
-                "Crossings that this finds are green, others are red.")
-      ->group(kContent);
+            "Draw this segment, and a mark where it crosses IN, or the mesh that IN is drawn over.");
+  command.add_flag("--refine", options.refine,
+                   "Refine the hull of a .phull file where the --segment meets it, as Platis and Theoharis (2003) do. "
+                   "Crossings that this finds are green, others are red.");
 }
 
 void add_look_options(CLI::App& command, RenderOptions& options) {
-  constexpr const char* kLook = "Look";
-  command.add_flag("--wireframe", options.wireframe, "Draw the edges of IN.")->group(kLook);
+  const Heading heading(command, "Look");
+  command.add_flag("--wireframe", options.wireframe, "Draw the edges of IN.");
   add_optional_number(command, "--line-width", options.line_widths, {0, 100},
                       std::string("Width of the edges, in pixels.") + kForPanels)
       ->allow_extra_args(false)
       ->default_str("1")
-      ->type_name("WIDTH")
-      ->group(kLook);
+      ->type_name("WIDTH");
   add_optional_number(command, "--crease", options.crease_degrees, {0, 180},
                       "Faces look smooth where their directions differ by less than this angle, 0 to 180 degrees. "
                       "Without this option it is 40 for meshes of 10,000 faces or more, and 0 for others.")
-      ->type_name("DEGREES")
-      ->group(kLook);
+      ->type_name("DEGREES");
   add_value(
       command, "--color", options.colors, "COLOR",
       fmt::format(
           "Colour of IN: #rrggbb, {}.{} Without this option hulls are blue, and other meshes have the colour of clay.",
           render::color_names(), kForPanels))
-      ->allow_extra_args(false)
-      ->group(kLook);
+      ->allow_extra_args(false);
   add_number(command, "--opacity", options.look.opacity, {0, 1},
              "Opacity of IN where it is drawn --over a mesh, 0 to 1.")
-      ->type_name("OPACITY")
-      ->group(kLook);
-  command.add_flag("--ground", options.look.ground, "Draw a ground below the meshes, on which shadows fall.")
-      ->group(kLook);
+      ->type_name("OPACITY");
+  command.add_flag("--ground", options.look.ground, "Draw a ground below the meshes, on which shadows fall.");
   add_value(command, "--background", options.background, "COLOR", "Colour of the background, or transparent.")
-      ->capture_default_str()
-      ->group(kLook);
+      ->capture_default_str();
 }
 
 void add_view_options(CLI::App& command, RenderOptions& options) {
-  constexpr const char* kView = "View";
+  const Heading heading(command, "View");
   static constexpr std::array<std::pair<std::string_view, int>, 3> kAxes{{{"x", 0}, {"y", 1}, {"z", 2}}};
-  add_choice(command, "--up", options.look.view.up, kAxes, "Axis that points up.")->group(kView);
+  add_choice(command, "--up", options.look.view.up, kAxes, "Axis that points up.");
   add_number(command, "--azimuth", options.azimuth_degrees, {-360, 360},
              "Degrees by which the camera goes around that axis. 0 shows the front, 90 the right side.")
-      ->type_name("DEGREES")
-      ->group(kView);
+      ->type_name("DEGREES");
   add_number(command, "--elevation", options.elevation_degrees, {-90, 90},
              "Degrees by which the camera is above the horizon, -90 to 90.")
-      ->type_name("DEGREES")
-      ->group(kView);
+      ->type_name("DEGREES");
   add_optional_number(
       command, "--zoom", options.zooms, {0.01, 1000},
       std::string("Magnification. At 1 all of the meshes is seen, at 2 the middle half of the picture.") + kForPanels)
       ->allow_extra_args(false)
       ->default_str("1")
-      ->type_name("FACTOR")
-      ->group(kView);
+      ->type_name("FACTOR");
   add_value(
       command, "--center", options.centers, "X,Y,Z",
       std::string("Point that is in the middle of the picture, or none for the middle of the meshes.") + kForPanels)
-      ->allow_extra_args(false)
-      ->group(kView);
+      ->allow_extra_args(false);
   add_number(command, "--fov", options.field_of_view_degrees, {1, 120},
              "Angle that the camera sees across the shorter side of a panel, in degrees, 1 to 120.")
-      ->type_name("DEGREES")
-      ->group(kView);
+      ->type_name("DEGREES");
 }
 
 }  // namespace

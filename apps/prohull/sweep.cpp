@@ -295,46 +295,38 @@ int run_sweep(const SweepRunOptions& options) {
 }
 
 void add_motion_options(CLI::App& command, SweepRunOptions& options) {
-  constexpr const char* kHow = "How a mesh moves";
+  const Heading heading(command, "How a mesh moves");
   add_value(command, "--axis", options.axis, "AXIS",
-            "Direction of the axis about which the mesh turns: x, y, z or X,Y,Z. The default is z.")
-      ->group(kHow);
+            "Direction of the axis about which the mesh turns: x, y, z or X,Y,Z. The default is z.");
   add_value(
       command, "--through", options.through, "X,Y,Z",
-      "A point of the axis at the beginning, in the unit of the mesh as it is read. The default is the origin, 0,0,0.")
-      ->group(kHow);
+      "A point of the axis at the beginning, in the unit of the mesh as it is read. The default is the origin, 0,0,0.");
   add_optional_number(command, "--angle", options.degrees, {-1e7, 1e7},
                       "Angle by which the mesh turns, in degrees, counter-clockwise if one looks against the axis.")
-      ->type_name("DEGREES")
-      ->group(kHow);
+      ->type_name("DEGREES");
   CLI::Option* const move = add_value(command, "--move", options.move, "X,Y,Z",
                                       "Move the mesh straight by this vector, in the unit of the mesh as it is read, "
-                                      "after --scale and --unit. With --angle it turns meanwhile, as a screw does.")
-                                ->group(kHow);
+                                      "after --scale and --unit. With --angle it turns meanwhile, as a screw does.");
   CLI::Option* const poses = add_value(command, "--poses", options.poses, "FILE",
                                        "File of poses, one a row, .npy, .npz or .csv: x, y, z and the quaternion w, x, "
                                        "y, z, or the 12 or 16 numbers of a matrix. From one pose to the next the "
                                        "origin goes straight, and the mesh turns about one axis the shorter way "
-                                       "round.")
-                                 ->group(kHow);
+                                       "round.");
   for (const char* const name : {"--axis", "--through", "--angle"}) poses->excludes(command.get_option(name));
   poses->excludes(move);
 }
 
 void add_robot_options(CLI::App& command, SweepRunOptions& options) {
-  constexpr const char* kRobots = "Robots";
+  add_robot_file_options(command, options.file);
+  const Heading heading(command, "Robots");
   add_value(command, "--links", options.links, "A,B",
-            "Links to sweep, as in link1,link2. Without it, all links are swept.")
-      ->group(kRobots);
+            "Links to sweep, as in link1,link2. Without it, all links are swept.");
   command
       .add_flag("--workspace", options.workspace,
                 "In place of a PATH: with each joint anywhere within its limits, all that the robot may ever reach.")
-      ->excludes(command.get_option("path"))
-      ->group(kRobots);
+      ->excludes(command.get_option("path"));
   add_choice(command, "--geometry", options.geometry, geometry_names(),
-             "Geometry of the links that counts. A link that has none of it counts by the other one.")
-      ->group(kRobots);
-  add_robot_file_options(command, options.file);
+             "Geometry of the links that counts. A link that has none of it counts by the other one.");
 }
 
 }  // namespace

@@ -352,10 +352,10 @@ int run_urdf(UrdfOptions options) {
 }
 
 /// What each kind of collision geometry has a number of.
-void add_sizes(CLI::App& command, UrdfOptions& options, const char* group) {
+void add_sizes(CLI::App& command, UrdfOptions& options) {
   Budget& budget = options.hulls.budget;
   const auto is_for = [&](Collision kind, CLI::Option* option) {
-    option->capture_default_str()->group(group);
+    option->capture_default_str();
     options.sizes.emplace_back(option, kind);
   };
   is_for(Collision::Hull,
@@ -376,74 +376,58 @@ void add_sizes(CLI::App& command, UrdfOptions& options, const char* group) {
 
 /// Returns --write-budgets.
 CLI::Option* add_budgets(CLI::App& command, UrdfOptions& options) {
-  constexpr const char* kBudgets = "Budgets";
-  add_sizes(command, options, kBudgets);
+  const Heading heading(command, "Budgets");
+  add_sizes(command, options);
   add_value(command, "--max-distance", options.max_distance, "LENGTH",
             "Largest allowed distance of any point of a hull from the geometry, in metres or with a unit: 2mm. Hulls "
             "then have the fewest faces found to keep it, but at least --faces. Convex pieces and spheres are then as "
             "few as are found to keep it, but at most --pieces and --spheres. It must be greater than --gap. The exit "
-            "code is 1 if a hull cannot keep it.")
-      ->group(kBudgets);
+            "code is 1 if a hull cannot keep it.");
   add_value(command, "--gap", options.gap, "LENGTH",
             "Least distance that the hulls keep from the geometry, in metres or with a unit: 5mm. Not for convex "
-            "pieces and spheres.")
-      ->group(kBudgets);
+            "pieces and spheres.");
   add_value(command, "--budgets", options.budgets, "FILE.yaml",
             "YAML file with collision, faces, pieces, vertices, spheres, max_distance, gap and skip for each link; see "
-            "--write-budgets.")
-      ->group(kBudgets);
+            "--write-budgets.");
   return add_value(command, "--write-budgets", options.write_budgets, "FILE.yaml",
-                   "Write a file for --budgets with all links of the robot, as a start, and do nothing else.")
-      ->group(kBudgets);
+                   "Write a file for --budgets with all links of the robot, as a start, and do nothing else.");
 }
 
 /// Returns --check.
 CLI::Option* add_check(CLI::App& command, UrdfOptions& options) {
-  constexpr const char* kCheck = "Check what the robot ships with";
-  CLI::Option* const check = command
-                                 .add_flag("--check", options.check,
-                                           "Decide for each link whether its own collision geometry covers its visual "
-                                           "geometry, exactly. Nothing is built. The exit code is 1 if a link leaks.")
-                                 ->group(kCheck);
+  const Heading heading(command, "Check what the robot ships with");
+  CLI::Option* const check =
+      command.add_flag("--check", options.check,
+                       "Decide for each link whether its own collision geometry covers its visual "
+                       "geometry, exactly. Nothing is built. The exit code is 1 if a link leaks.");
   add_value(command, "--allow", options.allow, "LENGTH",
             "How far the visual geometry may stick out, in metres or with a unit: 0.5mm.")
-      ->needs(check)
-      ->group(kCheck);
+      ->needs(check);
   add_value(command, "--srdf", options.srdf, "FILE.srdf",
             "Also decide for each pair of links that this SRDF file disables: proven never to meet, or where the two "
             "meet. The exit code is 1 if a pair meets, unless its reason is Adjacent, Always, Default or User.")
-      ->needs(check)
-      ->group(kCheck);
+      ->needs(check);
   add_value(command, "--junit", options.junit, "FILE.xml",
             "Also write the verdicts as JUnit XML, which CI services show.")
-      ->needs(check)
-      ->group(kCheck);
-  add_value(command, "--html", options.html, "FILE.html", "Also write a page with pictures.")
-      ->needs(check)
-      ->group(kCheck);
-  add_value(command, "--report", options.report, "FILE.json", "Also write what was found as JSON.")
-      ->needs(check)
-      ->group(kCheck);
+      ->needs(check);
+  add_value(command, "--html", options.html, "FILE.html", "Also write a page with pictures.")->needs(check);
+  add_value(command, "--report", options.report, "FILE.json", "Also write what was found as JSON.")->needs(check);
   return check;
 }
 
 void add_motion(CLI::App& command, UrdfOptions& options) {
-  constexpr const char* kMotion = "Motion";
+  const Heading heading(command, "Motion");
   add_number(command, "--configurations", options.motion.configurations, {0, 1e7},
              "Number of random positions of all joints in which pairs of links are compared: how often hulls collide "
-             "where the geometry does not. With 0 this is left out.")
-      ->group(kMotion);
-  add_number(command, "--seed", options.motion.seed, kSeed, "Number that the positions depend on.")->group(kMotion);
+             "where the geometry does not. With 0 this is left out.");
+  add_number(command, "--seed", options.motion.seed, kSeed, "Number that the positions depend on.");
   add_number(command, "--prove", options.proof.cells, {0, 1e9},
              "Largest number of cells into which the positions of the joints are divided, for each pair of links that "
              "no joint connects: to prove that their hulls never meet within the limits, or to find where they do. "
-             "Proven pairs go into the SRDF. With 0 nothing is proven.")
-      ->group(kMotion);
-  command
-      .add_flag("--sampled-pairs", options.sampled_pairs,
-                "Also write pairs of links to the SRDF that were never, or always, in collision in these positions. "
-                "Their reason is \"sampled\": no proof, since they may collide in another position.")
-      ->group(kMotion);
+             "Proven pairs go into the SRDF. With 0 nothing is proven.");
+  command.add_flag("--sampled-pairs", options.sampled_pairs,
+                   "Also write pairs of links to the SRDF that were never, or always, in collision in these positions. "
+                   "Their reason is \"sampled\": no proof, since they may collide in another position.");
 }
 
 }  // namespace
