@@ -1,10 +1,10 @@
-#include <fmt/format.h>
-
 #include <array>
 #include <numbers>
 
 #include "robot/samples/sample_parts.h"
 
+// What is in arm.urdf: it has the same lengths.
+//
 // The arm is a chain of links that stand on a joint and hold the next one beside them, on a housing, and of links that
 // hang on such a housing with a hub and rise to the next joint. Every second one rises on the other side.
 //
@@ -197,7 +197,9 @@ TriangleMesh tool_flange(const Detail& detail) {
        at({0, 0, 0.04}, {}, inside_out(in_circle(disk(0.003, 0.008, 0, 0.001, {.segments = 24}), 1, 0.025, 0.4)))});
 }
 
-std::vector<std::pair<std::string, TriangleMesh>> meshes() {
+}  // namespace
+
+NamedMeshes sample_arm_meshes() {
   const Detail fine, coarse{.segments = 20, .is_export = false}, less_coarse{.segments = 28, .is_export = false},
       around{.segments = 12, .is_around = true, .is_export = false},
       finer_around{.segments = 40, .is_around = true, .is_export = false};
@@ -218,97 +220,6 @@ std::vector<std::pair<std::string, TriangleMesh>> meshes() {
       {"meshes/collision/link5.stl", standing(kStanding[2], less_coarse)},
       {"meshes/collision/link6.stl", hanging(kHanging[2], around)},
   };
-}
-
-constexpr const char* kHead = R"(<?xml version="1.0"?>
-<!-- A robot arm of seven joints, about 1.1 m long. At 0 all joints are where the arm waits. -->
-<robot name="sample_arm">
-)";
-
-constexpr const char* kTail = R"(  <!-- For the simulator; nothing else reads it. -->
-  <gazebo reference="link7">
-    <mu1>0.6</mu1>
-    <selfCollide>true</selfCollide>
-  </gazebo>
-</robot>
-)";
-
-std::string visual(const std::string& name, const char* material, const std::string& origin = {}) {
-  return shape("visual", mesh("visual/" + name), origin, material);
-}
-
-std::string collision_mesh(const std::string& name) { return shape("collision", mesh("collision/" + name)); }
-
-/// Two boxes: one around the tube, one around the housing and its cover.
-std::string two_boxes(const Standing& s) {
-  const auto box = [](const Vec3& center, const Vec3& size) {
-    return shape("collision", fmt::format(R"(<box size="{:.4f} {:.4f} {:.4f}"/>)", size.x, size.y, size.z),
-                 origin(center));
-  };
-  const double wide = 2.14 * s.tube, high = 2 * s.housing + 0.002;
-  const double back = s.back + 0.012;
-  return box({0, 0, s.height / 2}, {wide, wide, s.height}) +
-         box({0, s.side * (s.reach - back) / 2, s.height}, {high, s.reach + back, high});
-}
-
-std::string links() {
-  const Standing& third = kStanding[1];
-  const Hanging& second = kHanging[0];
-  return link("base_link",
-              visual("base", "shell") + collision_mesh("base") + inertial(3.2, {-0.01, 0, 0.06}, {0.18, 0.16, 0.15})) +
-         link("link1",
-              visual("link1", "shell") + collision_mesh("link1") + inertial(2.6, {0, 0.01, 0.07}, {0.12, 0.14, 0.16})) +
-         link("link2", visual("link2", "shell") + visual("link2_cover", "trim", origin(cover_place(second))) +
-                           collision_mesh("link2") + inertial(3.1, {0, -0.12, 0.064}, {0.11, 0.34, 0.12})) +
-         "  <!-- Two boxes are enough here. -->\n" +
-         link("link3",
-              visual("link3", "shell") + two_boxes(third) + inertial(1.7, {0, -0.01, 0.06}, {0.1, 0.12, 0.13})) +
-         link("link4",
-              visual("link4", "shell") + collision_mesh("link4") + inertial(1.9, {0, 0.1, 0.04}, {0.09, 0.3, 0.1})) +
-         link("link5",
-              visual("link5", "shell") + collision_mesh("link5") + inertial(1.1, {0, 0.01, 0.05}, {0.08, 0.1, 0.11})) +
-         link("link6", visual("link6", "shell") + collision_mesh("link6") +
-                           inertial(0.9, {0, -0.03, 0.046}, {0.08, 0.13, 0.09})) +
-         link("link7", visual("link7", "trim") +
-                           shape("collision", R"(<cylinder radius="0.0375" length="0.049"/>)", origin({0, 0, 0.0245})) +
-                           inertial(0.3, {0, 0, 0.02}, {0.07, 0.07, 0.045}));
-}
-
-/// How far a joint moves, and how fast and strong it is.
-struct Limits {
-  double lower, upper, effort, velocity;
-};
-
-std::string hinge(std::size_t number, const Vec3& xyz, const Vec3& rpy, double axis, const Limits& limits) {
-  const std::string parent = number == 1 ? "base_link" : fmt::format("link{}", number - 1);
-  return joint(fmt::format("joint{}", number), "revolute", {parent, fmt::format("link{}", number)}, origin(xyz, rpy),
-               fmt::format(R"(    <axis xyz="0 0 {}"/>
-    <limit lower="{}" upper="{}" effort="{}" velocity="{}"/>
-)",
-                           axis, limits.lower, limits.upper, limits.effort, limits.velocity));
-}
-
-std::string joint_on(std::size_t number, const Standing& s, double lean, const Limits& limits) {
-  return hinge(number, {0, s.side * s.reach, s.height}, {-s.side * kQuarterTurn, lean, 0}, s.side, limits);
-}
-
-std::string joint_on(std::size_t number, const Hanging& h, const Limits& limits) {
-  return hinge(number, {0, -h.side * h.length, h.middle + h.shift}, {h.side * kQuarterTurn, 0, 0}, 1, limits);
-}
-
-std::string joints() {
-  return hinge(1, {0, 0, kBaseHeight}, {}, 1, {-2.9, 2.9, 180, 2}) +
-         joint_on(2, kStanding[0], -0.35, {-1.85, 2.55, 180, 2}) + joint_on(3, kHanging[0], {-2.9, 2.9, 90, 2.5}) +
-         joint_on(4, kStanding[1], 1.75, {-4.5, 1, 90, 2.5}) + joint_on(5, kHanging[1], {-2.9, 2.9, 40, 3.1}) +
-         joint_on(6, kStanding[2], 1.55, {-4.1, 1, 40, 3.1}) + joint_on(7, kHanging[2], {-3.05, 3.05, 40, 3.1});
-}
-
-}  // namespace
-
-SampleRobot make_sample_arm() {
-  return {kHead + material("shell", "0.92 0.93 0.94 1") + material("trim", "0.16 0.38 0.62 1") + "\n" + links() + "\n" +
-              joints() + kTail,
-          meshes()};
 }
 
 }  // namespace prohull::robot

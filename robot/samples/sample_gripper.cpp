@@ -1,10 +1,10 @@
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 
 #include "robot/samples/sample_parts.h"
 
+// What is in gripper.urdf: it has the same lengths.
+//
 // Each finger is held by two bars of equal length, the driver and the follower, so that it moves without turning. The
 // gripper opens along x. Its meshes are in millimetres, as many are; the URDF file scales them.
 //
@@ -88,7 +88,9 @@ TriangleMesh pad(const Detail& detail) {
   return together(parts);
 }
 
-std::vector<std::pair<std::string, TriangleMesh>> meshes() {
+}  // namespace
+
+NamedMeshes sample_gripper_meshes() {
   const Detail flat{.segments = 48}, coarse{.segments = 16, .is_export = false};
   return {{"meshes/visual/palm.stl", palm()},
           {"meshes/visual/driver.stl", driver(flat)},
@@ -98,77 +100,6 @@ std::vector<std::pair<std::string, TriangleMesh>> meshes() {
           {"meshes/collision/palm.stl", loose_convex_hull(palm())},
           {"meshes/collision/driver.stl", driver(coarse)},
           {"meshes/collision/finger.stl", loose_convex_hull(finger(coarse))}};
-}
-
-constexpr const char* kMillimetres = "0.001 0.001 0.001";
-
-std::string looks(const std::string& name, const char* scale = kMillimetres) {
-  return shape("visual", mesh("visual/" + name, scale));
-}
-
-std::string collides(const std::string& name, const char* scale = kMillimetres) {
-  return shape("collision", mesh("collision/" + name, scale));
-}
-
-std::string bar_box() {
-  const Vec3 middle = kL * 0.0005;
-  return shape("collision", fmt::format(R"(<box size="{:.4f} 0.021 0.0124"/>)", norm(kL) * 0.001 + 0.0126),
-               fmt::format("      <origin xyz=\"{:.6g} 0 {:.6g}\" rpy=\"0 {:.6g} 0\"/>\n", middle.x, middle.z,
-                           -std::atan2(kL.z, kL.x)));
-}
-
-std::string finger_links(const std::string& side, const char* scale) {
-  return link(side + "_driver",
-              looks("driver") + collides("driver") + inertial(0.06, {0.022, 0, 0.018}, {0.05, 0.03, 0.04})) +
-         link(side + "_follower",
-              looks("follower") + bar_box() + inertial(0.03, {0.022, 0, 0.018}, {0.05, 0.02, 0.04})) +
-         link(side + "_finger", looks("finger", scale) + collides("finger", scale) +
-                                    inertial(0.05, {-0.018, 0, 0.03}, {0.02, 0.02, 0.08})) +
-         link(side + "_pad", looks("pad") +
-                                 shape("collision", R"(<box size="0.0404 0.0204 0.0034"/>)", origin({0, 0, 0.0015})) +
-                                 inertial(0.01, {0, 0, 0.001}, {0.04, 0.02, 0.003}));
-}
-
-std::string hinge(const std::string& name, const JointEnds& ends, const Vec3& at, double yaw,
-                  const std::string& mimic) {
-  const bool is_backwards = mimic.find('-') != std::string::npos;
-  return joint(name, "revolute", ends, origin(at * 0.001, {0, 0, yaw}),
-               fmt::format(R"(    <axis xyz="0 -1 0"/>
-    <limit lower="{}" upper="{}" effort="40" velocity="2"/>
-{})",
-                           is_backwards ? "-0.8" : "0", is_backwards ? "0" : "0.8", mimic));
-}
-
-std::string mimic(int multiplier) {
-  return fmt::format("    <mimic joint=\"left_driver_joint\" multiplier=\"{}\" offset=\"0\"/>\n", multiplier);
-}
-
-std::string finger_joints(const std::string& side, double direction, double yaw, const std::string& driver_mimic) {
-  const auto on_palm = [&](const Vec3& p) { return Vec3{direction * p.x, 0, p.z}; };
-  return hinge(side + "_driver_joint", {"palm", side + "_driver"}, on_palm(kA), yaw, driver_mimic) +
-         hinge(side + "_follower_joint", {"palm", side + "_follower"}, on_palm(kC), yaw, mimic(1)) +
-         hinge(side + "_finger_joint", {side + "_driver", side + "_finger"}, kL, 0, mimic(-1)) +
-         joint(side + "_pad_joint", "fixed", {side + "_finger", side + "_pad"},
-               origin({-0.033, 0, 0.048}, {0, -kQuarterTurn, 0}));
-}
-
-}  // namespace
-
-SampleRobot make_sample_gripper() {
-  return {fmt::format(R"(<?xml version="1.0"?>
-<!-- A gripper that opens 72 mm wide. All joints follow left_driver_joint: 0 is open, 0.8 is closed. -->
-<robot name="sample_gripper">
-{}{}  <!-- The right finger is the left one, mirrored. -->
-{}
-{}{}  <gazebo>
-    <static>false</static>
-  </gazebo>
-</robot>
-)",
-                      link("palm", looks("palm") + collides("palm") + inertial(0.65, {0, 0, 0.055}, {0.1, 0.06, 0.11})),
-                      finger_links("left", kMillimetres), finger_links("right", "0.001 -0.001 0.001"),
-                      finger_joints("left", 1, 0, ""), finger_joints("right", -1, std::numbers::pi, mimic(1))),
-          meshes()};
 }
 
 }  // namespace prohull::robot

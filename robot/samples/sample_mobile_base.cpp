@@ -1,16 +1,15 @@
-#include <fmt/format.h>
-
 #include <numbers>
 
 #include "robot/samples/sample_parts.h"
 
-// x is forwards. Two driven wheels stand in the middle, a caster before and one behind them.
+// What is in mobile-base.urdf: it has the same lengths. x is forwards. Two driven wheels stand in the middle, a caster
+// before and one behind them.
 
 namespace prohull::robot {
 namespace {
 
 constexpr double kQuarterTurn = std::numbers::pi / 2;
-constexpr double kWheelRadius = 0.1, kWheelWidth = 0.044, kWheelY = 0.215;
+constexpr double kWheelRadius = 0.1, kWheelWidth = 0.044;
 constexpr double kCasterRadius = 0.032;
 
 /// A loop in x and z at this y, as a pipe.
@@ -102,7 +101,9 @@ TriangleMesh mast(const Detail& detail) {
   return together(parts);
 }
 
-std::vector<std::pair<std::string, TriangleMesh>> meshes() {
+}  // namespace
+
+NamedMeshes sample_mobile_base_meshes() {
   const Detail fine, small{.segments = 64}, coarse{.segments = 12, .is_export = false};
   return {{"meshes/visual/chassis.stl", chassis(fine)},
           {"meshes/visual/wheel.stl", wheel(fine)},
@@ -112,93 +113,6 @@ std::vector<std::pair<std::string, TriangleMesh>> meshes() {
           {"meshes/collision/chassis.stl", chassis(coarse)},
           {"meshes/collision/caster_fork.stl", loose_convex_hull(caster_fork(small))},
           {"meshes/collision/mast.stl", mast(coarse)}};
-}
-
-constexpr const char* kHead = R"(<?xml version="1.0"?>
-<!-- A mobile base: two driven wheels and two casters. Its frame is on the floor, between the driven wheels. -->
-<robot name="sample_mobile_base">
-)";
-
-/// An emergency stop.
-std::string stop(const std::string& element) {
-  return shape(element + " name=\"stop\"", R"(<cylinder radius="0.02" length="0.03"/>)", origin({-0.2, 0, 0.157}));
-}
-
-std::string base() {
-  return "\n  <link name=\"base_footprint\"/>\n" +
-         link("base_link", shape("visual", mesh("visual/chassis"), {}, "orange") + "    <!-- emergency stop -->\n" +
-                               stop("visual") + shape("collision", mesh("collision/chassis")) + stop("collision") +
-                               inertial(14, {0, 0, 0.03}, {0.56, 0.36, 0.18})) +
-         joint("footprint_joint", "fixed", {"base_footprint", "base_link"}, origin({0, 0, 0.1})) + "\n";
-}
-
-std::string camera() {
-  return link("camera", shape("visual", R"(<box size="0.03 0.12 0.03"/>)", {}, "black") +
-                            shape("visual", R"(<cylinder radius="0.01" length="0.016"/>)",
-                                  "      <origin xyz=\"0.015 0.04 0\" rpy=\"0 1.5707963268 0\"/>\n") +
-                            shape("collision", R"(<box size="0.05 0.12 0.03"/>)")) +
-         joint("camera_joint", "revolute", {"mast", "camera"}, origin({0.03, 0, 0.42}), R"(    <axis xyz="0 1 0"/>
-    <limit lower="-0.7" upper="0.9" effort="2" velocity="1"/>
-)") + "\n";
-}
-
-std::string antenna() {
-  return "  <!-- It has nothing to collide with: it bends. -->\n" +
-         link("antenna",
-              shape("visual", R"(<cylinder radius="0.004" length="0.14"/>)", origin({0, 0, 0.07}), "black")) +
-         joint("antenna_joint", "fixed", {"base_link", "antenna"}, origin({-0.22, 0.1, 0.147})) + "\n";
-}
-
-constexpr const char* kTail = R"(
-  <gazebo reference="caster_front_wheel">
-    <mu1>0.1</mu1>
-  </gazebo>
-</robot>
-)";
-
-/// A link on top of the base.
-std::string mounted(const std::string& name, const std::string& visual, const std::string& collision, const Vec3& at) {
-  return link(name, shape("visual", visual, {}, "black") + shape("collision", collision)) +
-         joint(name + "_joint", "fixed", {"base_link", name}, origin(at)) + "\n";
-}
-
-/// A joint without limits.
-std::string wheel_joint(const std::string& parent, const std::string& child, const Vec3& at, const char* axis) {
-  return joint(child + "_joint", "continuous", {parent, child}, origin(at),
-               fmt::format("    <axis xyz=\"{}\"/>\n", axis));
-}
-
-/// The wheel stands on the left; turned about x, also on the right.
-std::string driven_wheel(const std::string& name, double direction) {
-  const Vec3 turn{-direction * kQuarterTurn, 0, 0};
-  const std::string around =
-      fmt::format(R"(<cylinder radius="{}" length="{}"/>)", kWheelRadius + 0.0015, kWheelWidth + 0.006);
-  return link(name, shape("visual", mesh("visual/wheel"), origin({0, -direction * kWheelWidth / 2, 0}, turn), "black") +
-                        shape("collision", around, origin({}, turn)) + inertial(1.1, {}, {0.2, 0.044, 0.2})) +
-         wheel_joint("base_link", name, {0, direction * kWheelY, 0}, "0 1 0");
-}
-
-std::string caster(const std::string& name, double x) {
-  return link(name, shape("visual", mesh("visual/caster_fork")) + shape("collision", mesh("collision/caster_fork")) +
-                        inertial(0.15, {0, 0, -0.02}, {0.05, 0.05, 0.05})) +
-         wheel_joint("base_link", name, {x, 0, -0.06}, "0 0 1") +
-         link(name + "_wheel",
-              shape("visual", mesh("visual/caster_wheel"), origin({0, 0.011, 0}, {kQuarterTurn, 0, 0}), "black") +
-                  shape("collision", fmt::format(R"(<sphere radius="{}"/>)", kCasterRadius)) +
-                  inertial(0.1, {}, {0.064, 0.022, 0.064})) +
-         wheel_joint(name, name + "_wheel", {-0.018, 0, -0.038}, "0 1 0");
-}
-
-}  // namespace
-
-SampleRobot make_sample_mobile_base() {
-  const std::string lidar = R"(<cylinder radius="0.04" length="0.05"/>)";
-  return {kHead + material("orange", "0.93 0.46 0.13 1") + material("black", "0.12 0.12 0.13 1") + base() +
-              mounted("lidar", lidar, lidar, {0.16, 0, 0.172}) +
-              mounted("mast", mesh("visual/mast"), mesh("collision/mast"), {-0.1, 0, 0.147}) + camera() + antenna() +
-              driven_wheel("wheel_left", 1) + driven_wheel("wheel_right", -1) + caster("caster_front", 0.21) +
-              caster("caster_rear", -0.21) + kTail,
-          meshes()};
 }
 
 }  // namespace prohull::robot

@@ -1,7 +1,5 @@
 #include "robot/samples/sample_parts.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -204,58 +202,6 @@ TriangleMesh loose_convex_hull(const TriangleMesh& mesh) {
   const Vec3 middle = bounding_box(hull).center();
   for (Vec3& p : hull.positions) p = middle + (p - middle) * 1.002;
   return hull;
-}
-
-std::string material(const std::string& name, const std::string& rgba) {
-  return fmt::format(R"(  <material name="{}">
-    <color rgba="{}"/>
-  </material>
-)",
-                     name, rgba);
-}
-
-std::string origin(const Vec3& xyz, const Vec3& rpy) {
-  return fmt::format("      <origin xyz=\"{:.6g} {:.6g} {:.6g}\" rpy=\"{:.10g} {:.10g} {:.10g}\"/>\n", xyz.x, xyz.y,
-                     xyz.z, rpy.x, rpy.y, rpy.z);
-}
-
-std::string inertial(double mass, const Vec3& center, const Vec3& size) {
-  const auto moment = [mass](double a, double b) { return mass * (a * a + b * b) / 12; };
-  return fmt::format(R"(    <inertial>
-      <origin xyz="{} {} {}"/>
-      <mass value="{}"/>
-      <inertia ixx="{:.3g}" ixy="0" ixz="0" iyy="{:.3g}" iyz="0" izz="{:.3g}"/>
-    </inertial>
-)",
-                     center.x, center.y, center.z, mass, moment(size.y, size.z), moment(size.x, size.z),
-                     moment(size.x, size.y));
-}
-
-std::string mesh(const std::string& path, const char* scale) {
-  return fmt::format(R"(<mesh filename="meshes/{}.stl"{}/>)", path,
-                     scale ? fmt::format(R"( scale="{}")", scale) : std::string());
-}
-
-std::string shape(const std::string& element, const std::string& form, const std::string& origin,
-                  const std::string& material) {
-  return fmt::format("    <{}>\n{}      <geometry>\n        {}\n      </geometry>\n{}    </{}>\n", element, origin,
-                     form, material.empty() ? material : fmt::format("      <material name=\"{}\"/>\n", material),
-                     element.substr(0, element.find(' ')));
-}
-
-std::string link(const std::string& name, const std::string& elements) {
-  return fmt::format("  <link name=\"{}\">\n{}  </link>\n", name, elements);
-}
-
-std::string joint(const std::string& name, const char* type, const JointEnds& ends, const std::string& origin,
-                  const std::string& elements) {
-  return fmt::format(R"(  <joint name="{}" type="{}">
-    <parent link="{}"/>
-    <child link="{}"/>
-{}{}  </joint>
-)",
-                     name, type, ends.parent, ends.child, origin.substr(std::min<std::size_t>(origin.size(), 2)),
-                     elements);
 }
 
 }  // namespace prohull::robot

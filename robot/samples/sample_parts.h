@@ -61,34 +61,15 @@ TriangleMesh at(const Vec3& translation, const Vec3& rpy, TriangleMesh mesh);
 /// The convex hull, grown by 0.2 % from the middle of its box, so that rounding leaves nothing outside.
 TriangleMesh loose_convex_hull(const TriangleMesh& mesh);
 
-// Elements of a URDF file, indented as they stand in it.
+// The parts of the sample robots, before coordinates are rounded.
+using NamedMeshes = decltype(SampleRobot::meshes);
+NamedMeshes sample_arm_meshes();
+NamedMeshes sample_gripper_meshes();
+NamedMeshes sample_mobile_base_meshes();
 
-std::string material(const std::string& name, const std::string& rgba);
-
-/// Lengths with six digits, angles with ten.
-std::string origin(const Vec3& xyz, const Vec3& rpy = {});
-
-/// An <inertial> element: that of a box of this size and mass (kg) about the centre.
-std::string inertial(double mass, const Vec3& center, const Vec3& size);
-
-/// The form of a mesh by its path below "meshes", such as "visual/base".
-std::string mesh(const std::string& path, const char* scale = nullptr);
-
-/// A <visual> or <collision> element of a form; `element` may go on with attributes.
-std::string shape(const std::string& element, const std::string& form, const std::string& origin = {},
-                  const std::string& material = {});
-
-std::string link(const std::string& name, const std::string& elements);
-
-struct JointEnds {
-  std::string parent, child;
-};
-std::string joint(const std::string& name, const char* type, const JointEnds& ends, const std::string& origin,
-                  const std::string& elements = {});
-
-// What make_sample_robot makes, before coordinates are rounded.
-SampleRobot make_sample_arm();
-SampleRobot make_sample_gripper();
-SampleRobot make_sample_mobile_base();
+// Their URDF files, which stand beside the sources.
+extern const char* const kArmUrdf;
+extern const char* const kGripperUrdf;
+extern const char* const kMobileBaseUrdf;
 
 }  // namespace prohull::robot

@@ -10,14 +10,18 @@ namespace {
 
 struct Maker {
   SampleRobotInfo info;
-  SampleRobot (*make)();
+  const char* const* urdf;
+  NamedMeshes (*meshes)();
 };
 
 constexpr std::array<Maker, 3> kMakers{{
-    {{"arm", "a robot arm of seven joints"}, make_sample_arm},
-    {{"gripper", "a gripper of two fingers on linkages, one joint and five that mimic it"}, make_sample_gripper},
+    {{"arm", "a robot arm of seven joints"}, &kArmUrdf, sample_arm_meshes},
+    {{"gripper", "a gripper of two fingers on linkages, one joint and five that mimic it"},
+     &kGripperUrdf,
+     sample_gripper_meshes},
     {{"mobile-base", "a mobile base: two driven wheels, two casters, a lidar and a camera on a mast"},
-     make_sample_mobile_base},
+     &kMobileBaseUrdf,
+     sample_mobile_base_meshes},
 }};
 
 constexpr auto kInfos = [] {
@@ -34,7 +38,7 @@ SampleRobot make_sample_robot(std::string_view name) {
   std::string known;
   for (const Maker& maker : kMakers) {
     if (maker.info.name == name) {
-      SampleRobot robot = maker.make();
+      SampleRobot robot{*maker.urdf, maker.meshes()};
       for (auto& [path, mesh] : robot.meshes) mesh = rounded_to_float32(std::move(mesh));
       return robot;
     }
