@@ -48,52 +48,56 @@ void take_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays
            : take_hits<Segment>(index, rows, mode, threads, progress, take);
 }
 
-/// The columns of n hits, which belong to numpy: not touched before rows are set, which needs no GIL.
+/// A column of n rows, which belongs to numpy: not touched before rows are set, which needs no GIL.
+template <class T>
+struct Column {
+  explicit Column(std::size_t n) : array(static_cast<py::ssize_t>(n)), rows(array.mutable_data()) {}
+  py::array_t<T> array;
+  T* rows;
+};
+template <>
+struct Column<Vec3> {
+  explicit Column(std::size_t n)
+      : array({static_cast<py::ssize_t>(n), py::ssize_t{3}}), rows(reinterpret_cast<Vec3*>(array.mutable_data())) {}
+  py::array_t<double> array;
+  Vec3* rows;
+};
+
+template <class... T>
 class Columns {
  public:
-  explicit Columns(std::size_t n)
-      : columns_(py::array_t<std::int64_t>(length(n)), py::array_t<double>(length(n)),
-                 py::array_t<double>({length(n), py::ssize_t{3}}), py::array_t<bool>(length(n))),
-        face_(std::get<0>(columns_).mutable_data()),
-        t_(std::get<1>(columns_).mutable_data()),
-        position_(std::get<2>(columns_).mutable_data()),
-        entering_(std::get<3>(columns_).mutable_data()) {}
-
-  void set(std::size_t row, const Hit& hit) { set(row, index(hit.face), hit.t, hit.position, hit.entering); }
-  void set_none(std::size_t row) {
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    set(row, -1, kNone, {kNone, kNone, kNone}, false);
+  explicit Columns(std::size_t n) : columns_(Column<T>(n)...) {}
+  void set(std::size_t row, const T&... values) {
+    std::apply([&](auto&... column) { ((column.rows[row] = values), ...); }, columns_);
   }
-  void append_to(py::list& result) const {
-    std::apply([&](const auto&... column) { (result.append(column), ...); }, columns_);
+  py::tuple arrays() const {
+    return std::apply([](const auto&... column) { return py::make_tuple(column.array...); }, columns_);
   }
 
  private:
-  static py::ssize_t length(std::size_t n) { return static_cast<py::ssize_t>(n); }
-
-  void set(std::size_t row, std::int64_t face, double t, const Vec3& position, bool entering) {
-    face_[row] = face, t_[row] = t, entering_[row] = entering;
-    for (int axis = 0; axis < 3; ++axis) position_[3 * row + static_cast<std::size_t>(axis)] = position[axis];
-  }
-
-  std::tuple<py::array_t<std::int64_t>, py::array_t<double>, py::array_t<double>, py::array_t<bool>> columns_;
-  std::int64_t* face_;
-  double *t_, *position_;
-  bool* entering_;
+  std::tuple<Column<T>...> columns_;
 };
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr Vec3 kNowhere{kNone, kNone, kNone};
+
+/// Face, t, position, and whether it enters.
+using HitColumns = Columns<std::int64_t, double, Vec3, bool>;
+void set(HitColumns& columns, std::size_t row, const Hit& hit) {
+  columns.set(row, index(hit.face), hit.t, hit.position, hit.entering);
+}
 
 bool is_answered(const HitBatch& batch, std::size_t i) { return batch.offsets[i] < batch.offsets[i + 1]; }
 
-py::list first_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads,
-                    const py::object& progress) {
-  Columns columns(static_cast<std::size_t>(rows.shape(0)));
+py::tuple first_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads,
+                     const py::object& progress) {
+  HitColumns columns(static_cast<std::size_t>(rows.shape(0)));
   take_hits(index, rows, are_rays, HitMode::First, threads, progress, [&](std::size_t first, const HitBatch& chunk) {
     for (std::size_t i = 0; i + 1 < chunk.offsets.size(); ++i)
-      is_answered(chunk, i) ? columns.set(first + i, chunk.hits[chunk.offsets[i]]) : columns.set_none(first + i);
+      is_answered(chunk, i) ? set(columns, first + i, chunk.hits[chunk.offsets[i]])
+                            : columns.set(first + i, -1, kNone, kNowhere, false);
   });
-  py::list result;
-  columns.append_to(result);
-  return result;
+  return columns.arrays();
 }
 
 py::array any_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads,
@@ -123,12 +127,12 @@ std::vector<Chunk> all_chunks(const QueryIndex& index, const Array<double>& rows
   return chunks;
 }
 
-py::list all_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads,
-                  const py::object& progress) {
+py::tuple all_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads,
+                   const py::object& progress) {
   const std::vector<Chunk> chunks = all_chunks(index, rows, are_rays, threads, progress);
   std::size_t count = 0;
   for (const Chunk& chunk : chunks) count += chunk.batch.hits.size();
-  Columns columns(count);
+  HitColumns columns(count);
   py::array_t<std::int64_t> offsets(rows.shape(0) + 1);
   std::int64_t* offset = offsets.mutable_data();
   *offset = 0;
@@ -136,12 +140,9 @@ py::list all_hits(const QueryIndex& index, const Array<double>& rows, bool are_r
   for (const auto& [first, batch] : chunks) {
     for (std::size_t i = 1; i < batch.offsets.size(); ++i)
       offset[first + i] = static_cast<std::int64_t>(row + batch.offsets[i]);
-    for (const Hit& hit : batch.hits) columns.set(row++, hit);
+    for (const Hit& hit : batch.hits) set(columns, row++, hit);
   }
-  py::list result;
-  result.append(offsets);
-  columns.append_to(result);
-  return result;
+  return py::make_tuple(offsets) + columns.arrays();
 }
 
 /// `rows` of shape (n, 9).
@@ -164,37 +165,11 @@ py::array points_inside(const QueryIndex& index, const Array<double>& points, un
   }));
 }
 
-/// Columns of n closest points.
-class ClosestColumns {
- public:
-  explicit ClosestColumns(std::size_t n)
-      : face_(static_cast<py::ssize_t>(n)), position_({static_cast<py::ssize_t>(n), py::ssize_t{3}}) {
-    for (py::array_t<double>& column : numbers_) column = py::array_t<double>(static_cast<py::ssize_t>(n));
-  }
-
-  void set(std::size_t row, const ClosestPoint& p) {
-    set(row, index(p.face), p.position, p.distance, p.lower, p.upper);
-  }
-  void set_none(std::size_t row) {
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    set(row, -1, {kNone, kNone, kNone}, kNone, kNone, kNone);
-  }
-  py::tuple all() const { return py::make_tuple(face_, position_, numbers_[0], numbers_[1], numbers_[2]); }
-
- private:
-  void set(std::size_t row, std::int64_t face, const Vec3& position, double distance, double lower, double upper) {
-    face_.mutable_data()[row] = face;
-    for (int axis = 0; axis < 3; ++axis)
-      position_.mutable_data()[3 * row + static_cast<std::size_t>(axis)] = position[axis];
-    numbers_[0].mutable_data()[row] = distance;
-    numbers_[1].mutable_data()[row] = lower;
-    numbers_[2].mutable_data()[row] = upper;
-  }
-
-  py::array_t<std::int64_t> face_;
-  py::array_t<double> position_;
-  std::array<py::array_t<double>, 3> numbers_;  ///< distance, lower, upper
-};
+/// Face, position, distance, and its bounds.
+using ClosestColumns = Columns<std::int64_t, Vec3, double, double, double>;
+void set(ClosestColumns& columns, std::size_t row, const ClosestPoint& p) {
+  columns.set(row, index(p.face), p.position, p.distance, p.lower, p.upper);
+}
 
 /// `points` of shape (n, 3).
 py::tuple points_closest(const QueryIndex& index, const Array<double>& points, double max_distance, unsigned threads,
@@ -203,8 +178,9 @@ py::tuple points_closest(const QueryIndex& index, const Array<double>& points, d
     return closest_points(index, queries_of<Vec3>(points), max_distance, batch_options(watch, threads));
   });
   ClosestColumns columns(found.size());
-  for (std::size_t i = 0; i < found.size(); ++i) found[i] ? columns.set(i, *found[i]) : columns.set_none(i);
-  return columns.all();
+  for (std::size_t i = 0; i < found.size(); ++i)
+    found[i] ? set(columns, i, *found[i]) : columns.set(i, -1, kNowhere, kNone, kNone, kNone);
+  return columns.arrays();
 }
 
 /// `points` of shape (n, 3).
@@ -214,8 +190,8 @@ py::tuple points_signed(const QueryIndex& index, const Array<double>& points, un
     return signed_distances(index, queries_of<Vec3>(points), batch_options(watch, threads));
   });
   ClosestColumns columns(found.size());
-  for (std::size_t i = 0; i < found.size(); ++i) columns.set(i, found[i]);
-  return columns.all();
+  for (std::size_t i = 0; i < found.size(); ++i) set(columns, i, found[i]);
+  return columns.arrays();
 }
 
 }  // namespace
