@@ -40,9 +40,11 @@ std::vector<std::string_view> split(std::string_view line, char separator) {
   }
 }
 
-/// What a column of a table holds.
+using Table = std::vector<std::vector<double>> PathRows::*;
+
+/// What a column of a file holds: an entry of each row of the table; nullptr: times.
 struct Column {
-  enum class Kind { Time, Position, Velocity, Acceleration } kind = Kind::Position;
+  Table table = nullptr;
   std::size_t joint = 0;
 };
 
@@ -84,7 +86,7 @@ class CsvReader {
       if (is_number(name)) refuse(line, fmt::format("the number '{}' where the name of a joint is expected", name));
     for (const std::string_view name : names) {
       columns_.push_back(column_of(name));
-      if (columns_.back().kind == Column::Kind::Position && !is_derivative(name, names))
+      if (columns_.back().table && !is_derivative(name, names))
         rows_.joints.emplace_back(name), columns_.back().joint = rows_.joints.size() - 1;
     }
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -92,12 +94,9 @@ class CsvReader {
     check_complete(line);
   }
 
-  static constexpr std::pair<std::string_view, Column::Kind> kEndings[] = {
-      {".velocity", Column::Kind::Velocity}, {".acceleration", Column::Kind::Acceleration}};
-
-  static Column column_of(std::string_view name) {
-    return {name == "time" ? Column::Kind::Time : Column::Kind::Position, 0};
-  }
+  static constexpr std::pair<std::string_view, Table> kEndings[] = {{".velocity", &PathRows::velocities},
+                                                                    {".acceleration", &PathRows::accelerations}};
+  static Column column_of(std::string_view name) { return {name == "time" ? nullptr : &PathRows::positions, 0}; }
 
   /// Whether there is a column of the name before ".velocity" or ".acceleration".
   static bool is_derivative(std::string_view name, const std::vector<std::string_view>& names) {
@@ -108,57 +107,39 @@ class CsvReader {
   }
 
   Column derivative(std::string_view name, std::size_t line) const {
-    for (const auto& [ending, kind] : kEndings) {
+    for (const auto& [ending, table] : kEndings) {
       if (!name.ends_with(ending)) continue;
       const auto joint = std::ranges::find(rows_.joints, name.substr(0, name.size() - ending.size()));
-      if (joint != rows_.joints.end()) return {kind, static_cast<std::size_t>(joint - rows_.joints.begin())};
+      if (joint != rows_.joints.end()) return {table, static_cast<std::size_t>(joint - rows_.joints.begin())};
     }
     refuse(line, fmt::format("'{}' is of no joint", name));
   }
 
   /// Velocities and accelerations are of all joints, or of none.
   void check_complete(std::size_t line) {
-    has_velocities_ = has_all(Column::Kind::Velocity, ".velocity", line);
-    has_accelerations_ = has_all(Column::Kind::Acceleration, ".acceleration", line);
-    if (std::ranges::count(columns_, Column::Kind::Time, &Column::kind) > 1) refuse(line, "two columns 'time'");
-  }
-
-  bool has_all(Column::Kind kind, std::string_view ending, std::size_t line) const {
-    if (std::ranges::find(columns_, kind, &Column::kind) == columns_.end()) return false;
-    for (std::size_t joint = 0; joint < rows_.joints.size(); ++joint) {
-      const auto count =
-          std::ranges::count_if(columns_, [&](const Column& c) { return c.kind == kind && c.joint == joint; });
-      if (count != 1) refuse(line, fmt::format("{} columns '{}{}', expected one", count, rows_.joints[joint], ending));
+    for (const auto& [ending, table] : kEndings) {
+      const Table kind = table;
+      if (std::ranges::find(columns_, kind, &Column::table) == columns_.end()) continue;
+      tables_.push_back(kind);
+      for (std::size_t joint = 0; joint < rows_.joints.size(); ++joint) {
+        const auto count =
+            std::ranges::count_if(columns_, [&](const Column& c) { return c.table == kind && c.joint == joint; });
+        if (count != 1)
+          refuse(line, fmt::format("{} columns '{}{}', expected one", count, rows_.joints[joint], ending));
+      }
     }
-    return true;
+    if (std::ranges::count(columns_, Table(), &Column::table) > 1) refuse(line, "two columns 'time'");
   }
 
   void take_numbers(std::string_view row, std::size_t line) {
     const std::vector<std::string_view> cells = split(row, separator_);
     if (cells.size() != columns_.size())
       refuse(line, fmt::format("{} columns, expected {} as in the line of names", cells.size(), columns_.size()));
-    const std::vector<double> none(rows_.joints.size());
     rows_.numbers.push_back(line);
-    rows_.positions.push_back(none);
-    if (has_velocities_) rows_.velocities.push_back(none);
-    if (has_accelerations_) rows_.accelerations.push_back(none);
-    for (std::size_t i = 0; i < cells.size(); ++i) set(columns_[i], number(cells[i], line));
-  }
-
-  void set(const Column& column, double value) {
-    switch (column.kind) {
-      case Column::Kind::Time:
-        rows_.times.push_back(value);
-        break;
-      case Column::Kind::Position:
-        rows_.positions.back()[column.joint] = value;
-        break;
-      case Column::Kind::Velocity:
-        rows_.velocities.back()[column.joint] = value;
-        break;
-      case Column::Kind::Acceleration:
-        rows_.accelerations.back()[column.joint] = value;
-        break;
+    for (const Table table : tables_) (rows_.*table).emplace_back(rows_.joints.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const auto& [table, joint] = columns_[i];
+      (table ? (rows_.*table).back()[joint] : rows_.times.emplace_back()) = number(cells[i], line);
     }
   }
 
@@ -179,8 +160,8 @@ class CsvReader {
 
   PathRows rows_;
   std::vector<Column> columns_;
+  std::vector<Table> tables_{&PathRows::positions};  // that have columns
   char separator_ = ',';
-  bool has_velocities_ = false, has_accelerations_ = false;
 };
 
 class JsonReader {
