@@ -35,19 +35,24 @@ inline val failure(const char* name, const std::string& message) {
   return object;
 }
 
-template <class Work>
-val guarded(Work work) {
-  try {
-    return work();
-  } catch (const InputError& error) {
-    return failure("InputError", error.what());
-  } catch (const Cancelled&) {
-    return failure("AbortError", "cancelled");
-  } catch (const std::bad_alloc&) {
-    return failure("RangeError", "the memory does not do: of WebAssembly's, 4 GB, or of this page's");
-  } catch (const std::exception& error) {
-    return failure("Error", error.what());
+/// A function as JavaScript calls it: what it throws becomes an object with `error` and its name.
+template <auto function>
+struct Guarded;
+template <class... Arguments, val (*function)(Arguments...)>
+struct Guarded<function> {
+  static val call(Arguments... arguments) {
+    try {
+      return function(arguments...);
+    } catch (const InputError& error) {
+      return failure("InputError", error.what());
+    } catch (const Cancelled&) {
+      return failure("AbortError", "cancelled");
+    } catch (const std::bad_alloc&) {
+      return failure("RangeError", "the memory does not do: of WebAssembly's, 4 GB, or of this page's");
+    } catch (const std::exception& error) {
+      return failure("Error", error.what());
+    }
   }
-}
+};
 
 }  // namespace prohull::js

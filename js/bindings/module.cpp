@@ -59,41 +59,37 @@ void add_summary(val& object, const std::string& file, const EnclosingHull& hull
 }
 
 val build(const val& mesh, const val& targets, const val& given, const val& progress) {
-  return guarded([&] {
-    std::string file;
-    const EnclosingOptions options = options_of(given, progress, [&](const Given& named) {
-      named.text("summary_of", file);
-      return enclosing_options(named);
-    });
-    std::vector<std::size_t> faces;
-    for (const double target : numbers_of(targets, "targetFaces")) {
-      check_whole(target, "targetFaces", 4);
-      faces.push_back(static_cast<std::size_t>(target));
-    }
-    const EnclosingHulls made = enclosing_hulls(mesh_of(mesh, "mesh"), faces, options);
-    val hulls = val::array();
-    for (const EnclosingHull& hull : made.hulls) {
-      val object = object_of(hull, made);
-      if (!file.empty()) add_summary(object, file, hull, made, options);
-      hulls.call<void>("push", object);
-    }
-    return hulls;
+  std::string file;
+  const EnclosingOptions options = options_of(given, progress, [&](const Given& named) {
+    named.text("summary_of", file);
+    return enclosing_options(named);
   });
+  std::vector<std::size_t> faces;
+  for (const double target : numbers_of(targets, "targetFaces")) {
+    check_whole(target, "targetFaces", 4);
+    faces.push_back(static_cast<std::size_t>(target));
+  }
+  const EnclosingHulls made = enclosing_hulls(mesh_of(mesh, "mesh"), faces, options);
+  val hulls = val::array();
+  for (const EnclosingHull& hull : made.hulls) {
+    val object = object_of(hull, made);
+    if (!file.empty()) add_summary(object, file, hull, made, options);
+    hulls.call<void>("push", object);
+  }
+  return hulls;
 }
 
 /// As `prohull lod` extracts it for a file.
 val level(const val& levels, double faces, const val& given) {
-  return guarded([&] {
-    bool float32 = false;
-    const Given named(given);
-    named.flag("float32_coordinates", float32);
-    named.refuse_others();
-    if (!(faces >= 0)) throw InputError(Defect::InvalidOption, "faces: expected a number, at least 0");
-    const ProgressiveHull hull = levels_of(levels);
-    TriangleMesh found = hull.level(static_cast<std::size_t>(std::min<double>(faces, 0xffffffff)));
-    if (float32) found = with_float32_coordinates(found, hull.side()).mesh;
-    return object_of_mesh(found);
-  });
+  bool float32 = false;
+  const Given named(given);
+  named.flag("float32_coordinates", float32);
+  named.refuse_others();
+  if (!(faces >= 0)) throw InputError(Defect::InvalidOption, "faces: expected a number, at least 0");
+  const ProgressiveHull hull = levels_of(levels);
+  TriangleMesh found = hull.level(static_cast<std::size_t>(std::min<double>(faces, 0xffffffff)));
+  if (float32) found = with_float32_coordinates(found, hull.side()).mesh;
+  return object_of_mesh(found);
 }
 
 val object_of(const Verification& found) {
@@ -125,34 +121,30 @@ val object_of(const Verification& found) {
 }
 
 val verify(const val& hull, const val& original, const val& given, const val& progress) {
-  return guarded([&] {
-    HullSide side = HullSide::Outer;
-    const auto options = options_of(given, progress, [&](const Given& named) {
-      VerificationOptions read;
-      named.choice("side", hull_side_names(), side);
-      named.flag("solid_only", read.solid_only);
-      named.flag("finite_only", read.finite_only);
-      named.not_negative("gap", read.gap);
-      return read;
-    });
-    return object_of(verify_hull(mesh_of(hull, "hull"), mesh_of(original, "original"), side, options));
+  HullSide side = HullSide::Outer;
+  const auto options = options_of(given, progress, [&](const Given& named) {
+    VerificationOptions read;
+    named.choice("side", hull_side_names(), side);
+    named.flag("solid_only", read.solid_only);
+    named.flag("finite_only", read.finite_only);
+    named.not_negative("gap", read.gap);
+    return read;
   });
+  return object_of(verify_hull(mesh_of(hull, "hull"), mesh_of(original, "original"), side, options));
 }
 
 val distance(const val& from, const val& to, const val& given, const val& progress) {
-  return guarded([&] {
-    const auto options = options_of(given, progress, [](const Given& named) {
-      DistanceOptions read;
-      named.not_negative("relative_gap", read.relative_gap);
-      return read;
-    });
-    const DistanceBounds bounds = distance_bounds(mesh_of(from, "from"), mesh_of(to, "to"), options);
-    val object = val::object();
-    object.set("lower", bounds.lower);
-    object.set("upper", bounds.upper);
-    object.set("farthest", array_of(bounds.farthest));
-    return object;
+  const auto options = options_of(given, progress, [](const Given& named) {
+    DistanceOptions read;
+    named.not_negative("relative_gap", read.relative_gap);
+    return read;
   });
+  const DistanceBounds bounds = distance_bounds(mesh_of(from, "from"), mesh_of(to, "to"), options);
+  val object = val::object();
+  object.set("lower", bounds.lower);
+  object.set("upper", bounds.upper);
+  object.set("farthest", array_of(bounds.farthest));
+  return object;
 }
 
 template <class Cover>
@@ -200,79 +192,67 @@ struct SetPrimitive {
 };
 
 val convex_pieces(const val& mesh, const val& given, const val& progress) {
-  return guarded([&] {
-    const ConvexCoverOptions options = options_of(given, progress, convex_cover_options<Given>);
-    const ConvexCover cover = convex_cover(mesh_of(mesh, "mesh"), options);
-    val object = object_of_cover(cover), pieces = val::array();
-    for (const ConvexPiece& piece : cover.pieces) {
-      val one = object_of_mesh(piece.mesh);
-      std::visit(SetPrimitive{one}, piece.primitive);
-      pieces.call<void>("push", one);
-    }
-    object.set("pieces", pieces);
-    return object;
-  });
+  const ConvexCoverOptions options = options_of(given, progress, convex_cover_options<Given>);
+  const ConvexCover cover = convex_cover(mesh_of(mesh, "mesh"), options);
+  val object = object_of_cover(cover), pieces = val::array();
+  for (const ConvexPiece& piece : cover.pieces) {
+    val one = object_of_mesh(piece.mesh);
+    std::visit(SetPrimitive{one}, piece.primitive);
+    pieces.call<void>("push", one);
+  }
+  object.set("pieces", pieces);
+  return object;
 }
 
 val spheres(const val& mesh, const val& given, const val& progress) {
-  return guarded([&] {
-    const SphereCoverOptions options = options_of(given, progress, sphere_cover_options<Given>);
-    const SphereCover cover = sphere_cover(mesh_of(mesh, "mesh"), options);
-    val object = object_of_cover(cover);
-    object.set("balls", array_of(reinterpret_cast<const double*>(cover.balls.data()), 4 * cover.balls.size()));
-    return object;
-  });
+  const SphereCoverOptions options = options_of(given, progress, sphere_cover_options<Given>);
+  const SphereCover cover = sphere_cover(mesh_of(mesh, "mesh"), options);
+  val object = object_of_cover(cover);
+  object.set("balls", array_of(reinterpret_cast<const double*>(cover.balls.data()), 4 * cover.balls.size()));
+  return object;
 }
 
 val repair(const val& mesh, const val& given, const val& progress) {
-  return guarded([&] {
-    const ClosedSolidOptions options = options_of(given, progress, closed_solid_options<Given>);
-    const ClosedSolid made = closed_solid(mesh_of(mesh, "mesh"), options);
-    val object = object_of_mesh(made.mesh);
-    object.set("certified", made.verdict.certified);
-    object.set("whyNot", made.verdict.why_not);
-    object.set("source", std::string(name_of(source_names(), made.source)));
-    object.set("repairs", strings_of(describe(made.input.repairs)));
-    object.set("obstacle", made.input.obstacle);
-    return object;
-  });
+  const ClosedSolidOptions options = options_of(given, progress, closed_solid_options<Given>);
+  const ClosedSolid made = closed_solid(mesh_of(mesh, "mesh"), options);
+  val object = object_of_mesh(made.mesh);
+  object.set("certified", made.verdict.certified);
+  object.set("whyNot", made.verdict.why_not);
+  object.set("source", std::string(name_of(source_names(), made.source)));
+  object.set("repairs", strings_of(describe(made.input.repairs)));
+  object.set("obstacle", made.input.obstacle);
+  return object;
 }
 
 val inspect_mesh(const val& mesh) {
-  return guarded([&] {
-    const TriangleMesh given = mesh_of(mesh, "mesh");
-    const MeshReport report = inspect(given);
-    val object = val::object(), defects = val::object();
-    object.set("faces", report.faces);
-    object.set("vertices", report.vertices);
-    object.set("components", report.components);
-    object.set("closedManifold", report.is_closed_manifold());
-    object.set("volume", report.volume);
-    object.set("diagonal", finite_bounding_box(given).diagonal());
-    object.set("firstDefect", report.first_defect);
-    for (const DefectCount& defect : defect_counts(report))
-      if (defect.count > 0) defects.set(std::string(defect.description), defect.count);
-    if (report.is_closed_manifold() && report.volume < 0) defects.set("mesh inside out", 1);
-    object.set("defects", defects);
-    return object;
-  });
+  const TriangleMesh given = mesh_of(mesh, "mesh");
+  const MeshReport report = inspect(given);
+  val object = val::object(), defects = val::object();
+  object.set("faces", report.faces);
+  object.set("vertices", report.vertices);
+  object.set("components", report.components);
+  object.set("closedManifold", report.is_closed_manifold());
+  object.set("volume", report.volume);
+  object.set("diagonal", finite_bounding_box(given).diagonal());
+  object.set("firstDefect", report.first_defect);
+  for (const DefectCount& defect : defect_counts(report))
+    if (defect.count > 0) defects.set(std::string(defect.description), defect.count);
+  if (report.is_closed_manifold() && report.volume < 0) defects.set("mesh inside out", 1);
+  object.set("defects", defects);
+  return object;
 }
 
 val read(const val& bytes, const std::string& name) {
-  return guarded([&] {
-    const std::vector<unsigned char> content = emscripten::convertJSArrayToNumberVector<unsigned char>(bytes);
-    const std::string_view text(reinterpret_cast<const char*>(content.data()), content.size());
-    return object_of_mesh(read_mesh(text, name, {.non_finite = NonFinite::Keep}));
-  });
+  const std::vector<unsigned char> content = emscripten::convertJSArrayToNumberVector<unsigned char>(bytes);
+  const std::string_view text(reinterpret_cast<const char*>(content.data()), content.size());
+  return object_of_mesh(read_mesh(text, name, {.non_finite = NonFinite::Keep}));
 }
 
 val write(const val& mesh, const std::string& name) {
-  return guarded([&] {
-    const std::string content = mesh_content(name, mesh_of(mesh, "mesh"));
-    val object = val::object();
-    object.set("bytes", array_of(reinterpret_cast<const unsigned char*>(content.data()), content.size()));
-    return object;
-  });
+  const std::string content = mesh_content(name, mesh_of(mesh, "mesh"));
+  val object = val::object();
+  object.set("bytes", array_of(reinterpret_cast<const unsigned char*>(content.data()), content.size()));
+  return object;
 }
 
 double memory() { return static_cast<double>(emscripten_get_heap_size()); }
@@ -281,16 +261,16 @@ double memory() { return static_cast<double>(emscripten_get_heap_size()); }
 
 EMSCRIPTEN_BINDINGS(prohull) {
   using emscripten::function;
-  function("build", &build);
-  function("level", &level);
-  function("verify", &verify);
-  function("distance", &distance);
-  function("convexPieces", &convex_pieces);
-  function("spheres", &spheres);
-  function("repair", &repair);
-  function("inspect", &inspect_mesh);
-  function("read", &read);
-  function("write", &write);
+  function("build", &Guarded<build>::call);
+  function("level", &Guarded<level>::call);
+  function("verify", &Guarded<verify>::call);
+  function("distance", &Guarded<distance>::call);
+  function("convexPieces", &Guarded<convex_pieces>::call);
+  function("spheres", &Guarded<spheres>::call);
+  function("repair", &Guarded<repair>::call);
+  function("inspect", &Guarded<inspect_mesh>::call);
+  function("read", &Guarded<read>::call);
+  function("write", &Guarded<write>::call);
   function("memory", &memory);
 }
 

@@ -52,24 +52,21 @@ view::Shown shown_of(const val& hull) {
 
 /// What view.js of the page of `prohull view` shows: of a hull, if there is one, and of the mesh that it is a hull of.
 val scene(const val& hull, const val& original, const val& given, const val& progress) {
-  return guarded([&] {
-    const auto options = options_of(given, progress, [](const Given& named) {
-      view::PageOptions read{.version = PROHULL_VERSION, .measures_levels = false};
-      named.choice("side", hull_side_names(), read.side);
-      return read;
-    });
-    const std::string name = original["name"].as<std::string>();
-    TriangleMesh mesh = mesh_of(original, name);
-    const bool is_alone = hull.isUndefined() || hull.isNull();
-    const view::Scene made = is_alone
-                                 ? view::scene_of({{name, std::move(mesh)}}, {}, options)
-                                 : view::scene_of({shown_of(hull)}, view::Original{name, std::move(mesh)}, options);
-    val object = val::object();
-    const std::string& bytes = made.blocks.bytes();
-    object.set("facts", made.facts_as_text());
-    object.set("blocks", array_of(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
-    return object;
+  const auto options = options_of(given, progress, [](const Given& named) {
+    view::PageOptions read{.version = PROHULL_VERSION, .measures_levels = false};
+    named.choice("side", hull_side_names(), read.side);
+    return read;
   });
+  const std::string name = original["name"].as<std::string>();
+  TriangleMesh mesh = mesh_of(original, name);
+  const bool is_alone = hull.isUndefined() || hull.isNull();
+  const view::Scene made = is_alone ? view::scene_of({{name, std::move(mesh)}}, {}, options)
+                                    : view::scene_of({shown_of(hull)}, view::Original{name, std::move(mesh)}, options);
+  val object = val::object();
+  const std::string& bytes = made.blocks.bytes();
+  object.set("facts", made.facts_as_text());
+  object.set("blocks", array_of(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
+  return object;
 }
 
 val object_of_file(std::string_view content) {
@@ -80,16 +77,14 @@ val object_of_file(std::string_view content) {
 
 /// As `prohull convex` writes them to one file.
 val write_several(const val& meshes, const val& names, const std::string& file) {
-  return guarded([&] {
-    std::vector<TriangleMesh> all;
-    for (const val& mesh : emscripten::vecFromJSArray<val>(meshes)) all.push_back(mesh_of(mesh, "meshes"));
-    return object_of_file(meshes_content(file, all, emscripten::vecFromJSArray<std::string>(names)));
-  });
+  std::vector<TriangleMesh> all;
+  for (const val& mesh : emscripten::vecFromJSArray<val>(meshes)) all.push_back(mesh_of(mesh, "meshes"));
+  return object_of_file(meshes_content(file, all, emscripten::vecFromJSArray<std::string>(names)));
 }
 
 /// As `prohull spheres` writes them.
 val spheres_json(const val& balls, const std::string& link) {
-  return guarded([&] { return object_of_file(robot::sphere_json({link, balls_of(balls)})); });
+  return object_of_file(robot::sphere_json({link, balls_of(balls)}));
 }
 
 CertifiedOriginal original_of(const val& bytes, const std::string& name, bool is_stl) {
@@ -103,57 +98,51 @@ CertifiedOriginal original_of(const val& bytes, const std::string& name, bool is
 
 /// As `prohull build --certificate` writes it, of the bytes of the original's file.
 val certificate(const val& hull, const val& bytes, const std::string& name, const val& given) {
-  return guarded([&] {
-    double gap = 0, distance = std::numeric_limits<double>::infinity(), asked = distance, proven_gap = 0;
-    bool is_stl = false;
-    HullClaims claims;
-    const Given named(given);
-    named.choice("side", hull_side_names(), claims.side);
-    named.flag("is_stl", is_stl);
-    named.not_negative("gap", gap);
-    named.not_negative("proven_gap", proven_gap);
-    named.not_negative("max_distance", asked);
-    named.not_negative("distance", distance);
-    named.refuse_others();
-    claims.gap = claimed_gap(gap, proven_gap);
-    claims.distance = claimed_distance(asked, distance);
-    const Certificate made = hull_certificate(mesh_of(hull, "hull"), original_of(bytes, name, is_stl), claims);
-    return object_of_file(made.bytes);
-  });
+  double gap = 0, distance = std::numeric_limits<double>::infinity(), asked = distance, proven_gap = 0;
+  bool is_stl = false;
+  HullClaims claims;
+  const Given named(given);
+  named.choice("side", hull_side_names(), claims.side);
+  named.flag("is_stl", is_stl);
+  named.not_negative("gap", gap);
+  named.not_negative("proven_gap", proven_gap);
+  named.not_negative("max_distance", asked);
+  named.not_negative("distance", distance);
+  named.refuse_others();
+  claims.gap = claimed_gap(gap, proven_gap);
+  claims.distance = claimed_distance(asked, distance);
+  const Certificate made = hull_certificate(mesh_of(hull, "hull"), original_of(bytes, name, is_stl), claims);
+  return object_of_file(made.bytes);
 }
 
 constexpr double kMostSampleFaces = 2e7;  // these take up to 171 bytes each, of the 4 GB that there are
 
 val sample(const std::string& name, double faces) {
-  return guarded([&] {
-    check_whole(faces, "faces", 4, kMostSampleFaces);
-    return object_of_mesh(make_sample(name, static_cast<std::size_t>(faces)));
-  });
+  check_whole(faces, "faces", 4, kMostSampleFaces);
+  return object_of_mesh(make_sample(name, static_cast<std::size_t>(faces)));
 }
 
 /// Of "0.5" or "1%", in the unit of the mesh, as the options of the command line read it.
 val length(const std::string& text, const val& mesh) {
-  return guarded([&] {
-    const std::optional<Length> found = length_of(text);
-    if (!found || found->needs_metres())
-      throw InputError(Defect::InvalidOption,
-                       text + ": expected a number in the unit of the mesh, or a share of its diagonal, as 0.5%");
-    val object = val::object();
-    object.set("length", found->of(finite_bounding_box(mesh_of(mesh, "mesh")).diagonal()));
-    return object;
-  });
+  const std::optional<Length> found = length_of(text);
+  if (!found || found->needs_metres())
+    throw InputError(Defect::InvalidOption,
+                     text + ": expected a number in the unit of the mesh, or a share of its diagonal, as 0.5%");
+  val object = val::object();
+  object.set("length", found->of(finite_bounding_box(mesh_of(mesh, "mesh")).diagonal()));
+  return object;
 }
 
 }  // namespace
 
 EMSCRIPTEN_BINDINGS(prohull_page) {
   using emscripten::function;
-  function("scene", &scene);
-  function("certificate", &certificate);
-  function("sample", &sample);
-  function("writeSeveral", &write_several);
-  function("spheresJson", &spheres_json);
-  function("length", &length);
+  function("scene", &Guarded<scene>::call);
+  function("certificate", &Guarded<certificate>::call);
+  function("sample", &Guarded<sample>::call);
+  function("writeSeveral", &Guarded<write_several>::call);
+  function("spheresJson", &Guarded<spheres_json>::call);
+  function("length", &Guarded<length>::call);
 }
 
 }  // namespace prohull::js
