@@ -35,8 +35,10 @@ std::string escaped(const std::string& text) {
 
 std::string numbers(const Vec3& v) { return fmt::format("{} {} {}", v.x, v.y, v.z); }
 
+using Primitive = decltype(NamedPiece::primitive);
+
 /// A capsule so short that its axis is rounding is a ball.
-decltype(NamedPiece::primitive) sound(const decltype(NamedPiece::primitive)& primitive) {
+Primitive sound(const Primitive& primitive) {
   const auto* const capsule = std::get_if<Capsule>(&primitive);
   if (!capsule) return primitive;
   const double length = norm(capsule->b - capsule->a);
@@ -46,92 +48,45 @@ decltype(NamedPiece::primitive) sound(const decltype(NamedPiece::primitive)& pri
 
 Pose pose_of(const OrientedBox& box) { return of_columns(box.axes[0], box.axes[1], box.axes[2], box.center); }
 
-class UrdfPieces {
- public:
-  explicit UrdfPieces(const std::string& name) {
-    text_ = fmt::format("<?xml version=\"1.0\"?>\n<robot name=\"{}\">\n  <link name=\"{}\">\n", name, name);
-  }
+// Below, names and URIs are bytes of XML.
 
-  /// `name` and `uri` are bytes of XML.
-  void add(const std::string& name, const std::string& uri, const decltype(NamedPiece::primitive)& primitive) {
-    if (const auto* const box = std::get_if<OrientedBox>(&primitive))
-      add_element(name, box->center, rpy_of(pose_of(*box)),
-                  fmt::format("<box size=\"{}\"/>", numbers(2.0 * box->half_sizes)));
-    else if (const auto* const capsule = std::get_if<Capsule>(&primitive))
-      add_capsule(name, *capsule);
-    else if (const auto* const ball = std::get_if<Ball>(&primitive))
-      add_ball(name, *ball);
-    else
-      add_element(name, {}, {}, fmt::format("<mesh filename=\"{}\"/>", uri));
-  }
+std::string collision(const std::string& name, const Vec3& xyz, const Vec3& rpy, const std::string& form) {
+  std::string origin;
+  if (xyz != Vec3{} || rpy != Vec3{})
+    origin = fmt::format("      <origin xyz=\"{}\" rpy=\"{}\"/>\n", numbers(xyz), numbers(rpy));
+  return fmt::format("    <collision name=\"{}\">\n{}      <geometry>{}</geometry>\n    </collision>\n", name, origin,
+                     form);
+}
 
-  std::string text() const { return text_ + "  </link>\n</robot>\n"; }
-
- private:
-  void add_ball(const std::string& name, const Ball& ball) {
-    add_element(name, ball.center, {}, fmt::format("<sphere radius=\"{}\"/>", ball.radius));
-  }
-
-  void add_capsule(const std::string& name, const Capsule& capsule) {
-    const Vec3 axis = capsule.b - capsule.a;
+std::string urdf_piece(const std::string& name, const std::string& uri, const Primitive& primitive) {
+  if (const auto* const box = std::get_if<OrientedBox>(&primitive))
+    return collision(name, box->center, rpy_of(pose_of(*box)),
+                     fmt::format("<box size=\"{}\"/>", numbers(2.0 * box->half_sizes)));
+  if (const auto* const ball = std::get_if<Ball>(&primitive))
+    return collision(name, ball->center, {}, fmt::format("<sphere radius=\"{}\"/>", ball->radius));
+  if (const auto* const capsule = std::get_if<Capsule>(&primitive)) {
+    const Vec3 axis = capsule->b - capsule->a;
     const Vec3 turn_of_z{0, std::atan2(std::hypot(axis.x, axis.y), axis.z), std::atan2(axis.y, axis.x)};
-    add_element(name, 0.5 * (capsule.a + capsule.b), turn_of_z,
-                fmt::format("<cylinder radius=\"{}\" length=\"{}\"/>", capsule.radius, norm(axis)));
-    add_ball(name + "_a", {capsule.a, capsule.radius});
-    add_ball(name + "_b", {capsule.b, capsule.radius});
+    return collision(name, 0.5 * (capsule->a + capsule->b), turn_of_z,
+                     fmt::format("<cylinder radius=\"{}\" length=\"{}\"/>", capsule->radius, norm(axis))) +
+           urdf_piece(name + "_a", uri, Ball{capsule->a, capsule->radius}) +
+           urdf_piece(name + "_b", uri, Ball{capsule->b, capsule->radius});
   }
+  return collision(name, {}, {}, fmt::format("<mesh filename=\"{}\"/>", uri));
+}
 
-  void add_element(const std::string& name, const Vec3& xyz, const Vec3& rpy, const std::string& form) {
-    text_ += fmt::format("    <collision name=\"{}\">\n", name);
-    if (xyz != Vec3{} || rpy != Vec3{})
-      text_ += fmt::format("      <origin xyz=\"{}\" rpy=\"{}\"/>\n", numbers(xyz), numbers(rpy));
-    text_ += fmt::format("      <geometry>{}</geometry>\n    </collision>\n", form);
-  }
-
-  std::string text_;
-};
-
-class MjcfPieces {
- public:
-  explicit MjcfPieces(std::string name) : name_(std::move(name)) {}
-
-  /// `name` and `uri` are bytes of XML.
-  void add(const std::string& name, const std::string& uri, const decltype(NamedPiece::primitive)& primitive) {
-    if (const auto* const box = std::get_if<OrientedBox>(&primitive)) {
-      const auto q = quaternion_of(pose_of(*box));
-      add_geom(name, fmt::format(R"(type="box" size="{}" pos="{}" quat="{} {} {} {}")", numbers(box->half_sizes),
-                                 numbers(box->center), q[0], q[1], q[2], q[3]));
-    } else if (const auto* const capsule = std::get_if<Capsule>(&primitive)) {
-      add_geom(name, fmt::format(R"(type="capsule" size="{}" fromto="{} {}")", capsule->radius, numbers(capsule->a),
-                                 numbers(capsule->b)));
-    } else if (const auto* const ball = std::get_if<Ball>(&primitive)) {
-      add_geom(name, fmt::format(R"(type="sphere" size="{}" pos="{}")", ball->radius, numbers(ball->center)));
-    } else {
-      assets_ += fmt::format("    <mesh name=\"{}\" file=\"{}\"/>\n", name, uri);
-      add_geom(name, fmt::format(R"(type="mesh" mesh="{}")", name));
-    }
-  }
-
-  std::string text() const {
-    const std::string assets = assets_.empty() ? "" : "  <asset>\n" + assets_ + "  </asset>\n";
-    // MuJoCo refuses a body without mass, though one that does not move needs none.
-    return fmt::format(
-        "<mujoco model=\"{}\">\n{}  <worldbody>\n    <body name=\"{}\">\n"
-        "      <inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/>  <!-- a placeholder: before the body moves, "
-        "put its own here -->\n"
-        "{}    </body>\n  </worldbody>\n</mujoco>\n",
-        name_, assets, name_, geoms_);
-  }
-
- private:
-  /// The attributes are those of geoms that mjcf_write.cpp adds to a body that has none to collide.
-  void add_geom(const std::string& name, const std::string& form) {
-    geoms_ += fmt::format("      <geom name=\"{}\" contype=\"1\" conaffinity=\"1\" group=\"3\" mass=\"0\" {}/>\n", name,
-                          form);
-  }
-
-  std::string name_, assets_, geoms_;
-};
+/// The attributes that give a geom its form.
+std::string mjcf_form(const std::string& name, const Primitive& primitive) {
+  if (const auto* const box = std::get_if<OrientedBox>(&primitive))
+    return fmt::format(R"(type="box" size="{}" pos="{}" quat="{}")", numbers(box->half_sizes), numbers(box->center),
+                       fmt::join(quaternion_of(pose_of(*box)), " "));
+  if (const auto* const capsule = std::get_if<Capsule>(&primitive))
+    return fmt::format(R"(type="capsule" size="{}" fromto="{} {}")", capsule->radius, numbers(capsule->a),
+                       numbers(capsule->b));
+  if (const auto* const ball = std::get_if<Ball>(&primitive))
+    return fmt::format(R"(type="sphere" size="{}" pos="{}")", ball->radius, numbers(ball->center));
+  return fmt::format(R"(type="mesh" mesh="{}")", name);
+}
 
 void require_mujoco_reads(const std::string& uri) {
   const std::string suffix = lower_case_extension(uri);
@@ -140,12 +95,12 @@ void require_mujoco_reads(const std::string& uri) {
   if (uri.find("://") != std::string::npos) refuse(fmt::format("{}: MuJoCo reads paths, but no URIs", uri));
 }
 
-template <class Writer>
-std::string written(Writer writer, const std::string& name, std::span<const NamedPiece> pieces) {
+/// Calls `write(name, uri, primitive)` for each piece.
+template <class Write>
+void each_piece(const std::string& name, std::span<const NamedPiece> pieces, Write write) {
   const std::vector<std::string> names = piece_names(name, pieces.size());
   for (std::size_t i = 0; i < pieces.size(); ++i)
-    writer.add(escaped(names[i]), escaped(pieces[i].uri), sound(pieces[i].primitive));
-  return writer.text();
+    write(escaped(names[i]), escaped(pieces[i].uri), sound(pieces[i].primitive));
 }
 
 }  // namespace
@@ -158,13 +113,32 @@ std::vector<std::string> piece_names(const std::string& name, std::size_t count)
 }
 
 std::string urdf_of(const std::string& name, std::span<const NamedPiece> pieces) {
-  return written(UrdfPieces(escaped(name)), name, pieces);
+  std::string text =
+      fmt::format("<?xml version=\"1.0\"?>\n<robot name=\"{0}\">\n  <link name=\"{0}\">\n", escaped(name));
+  each_piece(name, pieces, [&](auto&&... piece) { text += urdf_piece(piece...); });
+  return text + "  </link>\n</robot>\n";
 }
 
 std::string mjcf_of(const std::string& name, std::span<const NamedPiece> pieces) {
   for (const NamedPiece& piece : pieces)
     if (std::holds_alternative<std::monostate>(piece.primitive)) require_mujoco_reads(piece.uri);
-  return written(MjcfPieces(escaped(name)), name, pieces);
+  const std::string model = escaped(name);
+  std::string assets, geoms;
+  each_piece(name, pieces, [&](const std::string& piece, const std::string& uri, const Primitive& primitive) {
+    if (std::holds_alternative<std::monostate>(primitive))
+      assets += fmt::format("    <mesh name=\"{}\" file=\"{}\"/>\n", piece, uri);
+    // The attributes are those of geoms that mjcf_write.cpp adds to a body that has none to collide.
+    geoms += fmt::format("      <geom name=\"{}\" contype=\"1\" conaffinity=\"1\" group=\"3\" mass=\"0\" {}/>\n", piece,
+                         mjcf_form(piece, primitive));
+  });
+  if (!assets.empty()) assets = "  <asset>\n" + assets + "  </asset>\n";
+  // MuJoCo refuses a body without mass, though one that does not move needs none.
+  return fmt::format(
+      "<mujoco model=\"{0}\">\n{1}  <worldbody>\n    <body name=\"{0}\">\n"
+      "      <inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/>  <!-- a placeholder: before the body moves, "
+      "put its own here -->\n"
+      "{2}    </body>\n  </worldbody>\n</mujoco>\n",
+      model, assets, geoms);
 }
 
 }  // namespace prohull::robot
