@@ -66,16 +66,19 @@ std::vector<double> distances_of(const std::vector<Vec3>& points, const QueryInd
 
 }  // namespace
 
+std::uint32_t scaled(double distance, double greatest) {
+  if (!(greatest > 0 && std::isfinite(greatest))) return 0;
+  return static_cast<std::uint32_t>(std::lround(distance / greatest * 65535));
+}
+
 nlohmann::json heat_facts(const TriangleMesh& mesh, const QueryIndex& original, bool outside_only,
                           const BatchOptions& batch, Blocks& blocks) {
   const std::vector<std::uint32_t> parts = enough_parts(mesh);
   const std::vector<double> distances = distances_of(points_on(mesh, parts), original, outside_only, batch);
   const double greatest = std::ranges::max(distances);
-  std::vector<std::uint32_t> scaled;
-  const bool is_scale = greatest > 0 && std::isfinite(greatest);
-  for (const double distance : distances)
-    scaled.push_back(is_scale ? static_cast<std::uint32_t>(std::lround(distance / greatest * 65535)) : 0);
-  return {{"parts", blocks.plain(parts)}, {"values", blocks.running(scaled, 1)}, {"max", greatest}};
+  std::vector<std::uint32_t> values;
+  for (const double distance : distances) values.push_back(scaled(distance, greatest));
+  return {{"parts", blocks.plain(parts)}, {"values", blocks.running(values, 1)}, {"max", greatest}};
 }
 
 }  // namespace prohull::view

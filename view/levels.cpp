@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
+
+#include "view/heat.h"
 
 namespace prohull::view {
 namespace {
@@ -131,33 +132,17 @@ class Slots {
   std::uint32_t count_ = 0;
 };
 
-/// Numbers of 0 to 65535, of which the greatest stands for the greatest distance.
-class DistanceScale {
- public:
-  explicit DistanceScale(const PerVertex<double>& distances)
-      : greatest_(distances.empty() ? 0 : *std::ranges::max_element(distances)) {}
-  double greatest() const { return greatest_; }
-  std::uint32_t operator()(double distance) const {
-    return greatest_ > 0 && std::isfinite(greatest_)
-               ? static_cast<std::uint32_t>(std::lround(distance / greatest_ * 65535))
-               : 0;
-  }
-
- private:
-  double greatest_;
-};
-
 }  // namespace
 
 nlohmann::json levels_facts(const ProgressiveHull& hull, const PerVertex<double>& distances, const Grid& grid,
                             Blocks& blocks) {
   Replay replay(hull);
   Slots slots(hull);
-  const DistanceScale scaled(distances);
+  const double greatest = distances.empty() ? 0 : *std::ranges::max_element(distances);
   std::vector<std::uint32_t> positions, triangles, heat;
   for (const VertexId v : slots.base()) {
     for (const std::uint32_t q : grid(hull.positions()[v])) positions.push_back(q);
-    heat.push_back(scaled(distances[v]));
+    heat.push_back(scaled(distances[v], greatest));
   }
   for (const VertexId v : replay.vertices()) triangles.push_back(slots[v]);
 
@@ -172,7 +157,7 @@ nlohmann::json levels_facts(const ProgressiveHull& hull, const PerVertex<double>
     for (const VertexId v : {record.o, record.d}) {
       const auto to = grid(hull.positions()[v]);
       for (std::size_t k = 0; k < 3; ++k) moves.push_back(static_cast<std::int32_t>(to[k] - from[k]));
-      split_heat.push_back(scaled(distances[v]));
+      split_heat.push_back(scaled(distances[v], greatest));
     }
     for (const bool goes : replay.split(s, record)) {
       if (bit % 8 == 0) bits.push_back(0);
@@ -183,7 +168,7 @@ nlohmann::json levels_facts(const ProgressiveHull& hull, const PerVertex<double>
   return {{"positions", blocks.running(positions, 3)},
           {"triangles", blocks.running(triangles, 1)},
           {"heat", blocks.running(heat, 1)},
-          {"heat_max", scaled.greatest()},
+          {"heat_max", greatest},
           {"splits", split_slots.size()},
           {"split_vertices", blocks.plain(split_slots)},
           {"split_moves", blocks.differences(moves)},
