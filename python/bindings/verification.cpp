@@ -2,8 +2,10 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "arrays.h"
+#include "keywords.h"
 #include "module.h"
 #include "prohull/detail/closed_original.h"
 #include "prohull/detail/float32_hull.h"
@@ -48,47 +50,27 @@ HullSide side_called(const std::string& name) {
   throw InputError(Defect::InvalidOption, "side='" + name + "': expected one of " + joined(hull_side_names()));
 }
 
-/// What is asked, beside the meshes.
-struct Asked {
-  bool solid_only;
-  double gap;
-  bool finite_only;
-  std::string open_shells;
-  std::size_t steps;  ///< 0: as many as usual
-};
-
-template <class Decide>
-py::dict verified(const TriangleMesh& original, HullSide side, const Asked& asked, const py::object& progress,
-                  Decide decide) {
-  const auto open_shells = value_of(open_shells_names(), asked.open_shells);
-  if (!open_shells)
-    throw InputError(Defect::InvalidOption,
-                     "open_shells='" + asked.open_shells + "': expected one of " + joined(open_shells_names()));
-  const Verification found = watched(progress, [&](Watch& watch) {
-    const std::optional<ClosedMesh> closed = closed_original(original, side, *open_shells);
-    return decide(VerificationOptions{.solid_only = asked.solid_only,
-                                      .gap = asked.gap,
-                                      .finite_only = asked.finite_only,
-                                      .closed = closed ? &closed->mesh : nullptr,
-                                      .max_steps = asked.steps,
-                                      .progress = watch.progress()});
+template <class Hull>
+py::dict verify(const Hull& hull, const TriangleMesh& original, const py::object& progress, const py::dict& keywords) {
+  const Keywords given(keywords);
+  VerificationOptions options;
+  HullSide side = HullSide::Outer;
+  OpenShells open_shells = OpenShells::Keep;
+  given.choice("side", hull_side_names(), side);
+  given.choice("open_shells", open_shells_names(), open_shells);
+  given.flag("solid_only", options.solid_only);
+  given.flag("finite_only", options.finite_only);
+  given.not_negative("gap", options.gap);
+  options.max_steps = keywords["steps"].cast<std::size_t>();  // 0: as many as usual
+  const Verification found = watched(progress, options, [&](VerificationOptions how) {
+    const std::optional<ClosedMesh> closed = closed_original(original, side, open_shells);
+    how.closed = closed ? &closed->mesh : nullptr;
+    if constexpr (std::is_same_v<Hull, TriangleMesh>)
+      return verify_hull(hull, original, side, how);
+    else
+      return verify_hull(hull, original, how);
   });
-  return facts_of(found, asked.gap);
-}
-
-py::dict verified_mesh(const TriangleMesh& hull, const TriangleMesh& original, const std::string& side_name,
-                       bool solid_only, double gap, bool finite_only, const std::string& open_shells, std::size_t steps,
-                       const py::object& progress) {
-  const HullSide side = side_called(side_name);
-  return verified(original, side, {solid_only, gap, finite_only, open_shells, steps}, progress,
-                  [&](const VerificationOptions& options) { return verify_hull(hull, original, side, options); });
-}
-
-py::dict verified_levels(const ProgressiveHull& hull, const TriangleMesh& original, bool solid_only, double gap,
-                         bool finite_only, const std::string& open_shells, std::size_t steps,
-                         const py::object& progress) {
-  return verified(original, hull.side(), {solid_only, gap, finite_only, open_shells, steps}, progress,
-                  [&](const VerificationOptions& options) { return verify_hull(hull, original, options); });
+  return facts_of(found, options.gap);
 }
 
 py::tuple distance(const TriangleMesh& from, const TriangleMesh& to, double relative_gap, const py::object& progress) {
@@ -134,8 +116,8 @@ void bind_verification(py::module_& module) {
   module.def(
       "solid_volume", [](const TriangleMesh& mesh) { return solid_volume(mesh).value_or(signed_volume(mesh)); },
       Release());
-  module.def("verify_mesh", &verified_mesh);
-  module.def("verify_levels", &verified_levels);
+  module.def("verify", &verify<TriangleMesh>);
+  module.def("verify", &verify<ProgressiveHull>);
   module.def("proof_of", &proof_of);
   module.def("is_within", &is_within);
   module.def("with_float32_coordinates", &float32_hull);

@@ -14,7 +14,7 @@ from . import _arrays, _prohull
 from ._hull import Hull
 from ._meshes import Mesh
 from ._prohull import InputError
-from ._types import Axis, Gap, MeshLike, Path
+from ._types import Axis, Gap, MeshLike, Path, Side
 
 
 def mesh_of(mesh: MeshLike, keep_non_finite: bool = False) -> Mesh:
@@ -106,7 +106,9 @@ def load(path: Path, *, mirror: Optional[Axis] = None) -> Hull:
         _arrays.one_of("mirror", mirror, ("x", "y", "z"))
         if not levels.level(0).is_symmetric(mirror):
             raise InputError(f"{os.fspath(path)}: the hull is not symmetric along {mirror}; leave mirror out")
-    found = _prohull.verify_levels(levels, original, False, 0.0, False, "keep", 0, None)
+    side: Side = "inner" if levels.is_inner else "outer"
+    found = _prohull.verify(levels, original, None, dict(
+        side=side, open_shells="keep", solid_only=False, finite_only=False, gap=0.0, steps=0))
     proven, why_not = found["encloses"], found["why_not"]
     finest = _FINEST.get(levels.finest_level)
     notes = ([why_not] if why_not else []) + ([f"the finest level is {finest}, not the input itself"] if finest else [])
@@ -115,7 +117,7 @@ def load(path: Path, *, mirror: Optional[Axis] = None) -> Hull:
                  certified=proven, proof="replay" if proven else "", gap=0.0, target_faces=faces, target_reached=True,
                  within_bounds=True, refusals={}, blocked={}, relaxed_guards=0, rounded_vertices=0, build_seconds=0.0,
                  verify_seconds=0.0, repairs=[], notes=notes)
-    return Hull._made(facts, "inner" if levels.is_inner else "outer")
+    return Hull._made(facts, side)
 
 
 def sample(name: str, faces: int) -> Mesh:

@@ -1,7 +1,6 @@
 """Proofs and distances between two meshes."""
 
 import math
-import os
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Optional
 
@@ -9,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _prohull
-from ._files import distance_of, mesh_of
+from ._files import distance_of, levels_of, mesh_of
 from ._hull import Hull
 from ._types import Gap, MeshLike, OpenShells, Progress, Side
 
@@ -132,15 +131,15 @@ def verify(hull: MeshLike, original: MeshLike, *, side: Optional[Side] = None, s
         assert prohull.verify("hull.stl", "part.stl", gap="0.5%")
     """
     mesh = mesh_of(original, keep_non_finite=True)
-    second, distance, most = mesh._core, distance_of("gap", gap, mesh), most_steps(steps)
-    if isinstance(hull, (str, os.PathLike)) and _prohull.is_hull_file(_arrays.path(hull)):
-        facts = _prohull.verify_levels(_prohull.load(hull), second, solid_only, distance, finite_only, open_shells,
-                                       most, progress)
+    first: Any = levels_of(hull)
+    if first:
+        side = "inner" if first.is_inner else "outer"
     else:
-        first = mesh_of(hull)
-        own_side = first.side if isinstance(first, Hull) else "outer"
-        facts = _prohull.verify_mesh(first._core, second, side or own_side, solid_only, distance, finite_only,
-                                     open_shells, most, progress)
+        given = mesh_of(hull)
+        first, side = given._core, side or (given.side if isinstance(given, Hull) else "outer")
+    facts = _prohull.verify(first, mesh._core, progress, dict(
+        side=side, open_shells=open_shells, solid_only=solid_only, finite_only=finite_only,
+        gap=distance_of("gap", gap, mesh), steps=most_steps(steps)))
     facts["nearest"] = [NearFace(*near) for near in facts["nearest"]]
     facts["worst"] = [Offender(*offender) for offender in facts["worst"]]
     return Verification(**facts)
