@@ -19,16 +19,10 @@ std::vector<PosePair> pose_pairs(const Array<double>& a, const Array<double>& b)
   return pairs;
 }
 
-/// batch(options) for a Watch.
-template <class Batch>
-auto answered(unsigned threads, const py::object& progress, Batch batch) {
-  return watched(progress, [&](Watch& watch) { return batch(CollisionOptions{threads, watch.progress()}); });
-}
-
 py::array collides(const CollisionIndex& a, const CollisionIndex& b, const Array<double>& poses_a,
                    const Array<double>& poses_b, bool conservative, unsigned threads, const py::object& progress) {
   const std::vector<PosePair> poses = pose_pairs(poses_a, poses_b);
-  return truths_of(answered(threads, progress, [&](const CollisionOptions& how) {
+  return truths_of(watched(progress, CollisionOptions{threads}, [&](const auto& how) {
     return conservative ? may_collide(a, b, poses, how) : collide(a, b, poses, how);
   }));
 }
@@ -36,8 +30,8 @@ py::array collides(const CollisionIndex& a, const CollisionIndex& b, const Array
 py::tuple intersecting_faces_of(const CollisionIndex& a, const CollisionIndex& b, const Array<double>& poses_a,
                                 const Array<double>& poses_b, unsigned threads, const py::object& progress) {
   const std::vector<PosePair> poses = pose_pairs(poses_a, poses_b);
-  const FacePairBatch batch =
-      answered(threads, progress, [&](const CollisionOptions& how) { return intersecting_faces(a, b, poses, how); });
+  const FacePairBatch batch = watched(progress, CollisionOptions{threads},
+                                      [&](const auto& how) { return intersecting_faces(a, b, poses, how); });
   std::vector<std::int64_t> faces;
   for (const FacePair& pair : batch.pairs) faces.insert(faces.end(), {index(pair.a), index(pair.b)});
   const auto count = static_cast<py::ssize_t>(batch.pairs.size());
@@ -49,7 +43,7 @@ py::tuple distances(const CollisionIndex& a, const CollisionIndex& b, const Arra
                     const Array<double>& poses_b, unsigned threads, const py::object& progress) {
   const std::vector<PosePair> poses = pose_pairs(poses_a, poses_b);
   const std::vector<Separation> found =
-      answered(threads, progress, [&](const CollisionOptions& how) { return separation(a, b, poses, how); });
+      watched(progress, CollisionOptions{threads}, [&](const auto& how) { return separation(a, b, poses, how); });
   std::vector<double> lower, upper, points;
   std::vector<std::int64_t> faces;
   for (const Separation& s : found) {

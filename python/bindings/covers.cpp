@@ -90,21 +90,16 @@ py::dict facts_of(const UnionVerification& found) {
 
 py::dict verify_pieces(const std::vector<TriangleMesh>& pieces, const TriangleMesh& original, bool solid_only,
                        bool finite_only, std::size_t steps, const py::object& progress) {
-  return facts_of(watched(progress, [&](Watch& watch) {
-    return verify_union(
-        pieces, original,
-        {.solid_only = solid_only, .finite_only = finite_only, .max_steps = steps, .progress = watch.progress()});
-  }));
+  const VerificationOptions options{.solid_only = solid_only, .finite_only = finite_only, .max_steps = steps};
+  return facts_of(watched(progress, options, [&](const auto& how) { return verify_union(pieces, original, how); }));
 }
 
 py::dict verify_balls(const Array<double>& rows, const TriangleMesh& original, bool inside, bool solid_only,
                       bool finite_only, std::size_t steps, const py::object& progress) {
   const std::vector<Ball> balls = balls_of(rows);
-  return facts_of(watched(progress, [&](Watch& watch) {
-    return verify_union(
-        balls, original, inside,
-        {.solid_only = solid_only, .finite_only = finite_only, .max_steps = steps, .progress = watch.progress()});
-  }));
+  const VerificationOptions options{.solid_only = solid_only, .finite_only = finite_only, .max_steps = steps};
+  return facts_of(
+      watched(progress, options, [&](const auto& how) { return verify_union(balls, original, inside, how); }));
 }
 
 void write_pieces(const std::filesystem::path& path, const std::vector<TriangleMesh>& pieces) {

@@ -31,15 +31,12 @@ std::span<const Query> queries_of(const Array<double>& rows) {
   return {rows_of<Query>(rows), static_cast<std::size_t>(rows.shape(0))};
 }
 
-BatchOptions batch_options(Watch& watch, unsigned threads) { return {threads, watch.progress()}; }
-
 /// Hands the hits of `rows`, of shape (n, 6), to `take` in chunks.
 template <class Query>
 void take_hits(const QueryIndex& index, const Array<double>& rows, HitMode mode, unsigned threads,
                const py::object& progress, const TakeHits& take) {
-  watched(progress, [&](Watch& watch) {
-    return find_hits_in_chunks(index, queries_of<Query>(rows), mode, take, batch_options(watch, threads));
-  });
+  watched(progress, BatchOptions{threads},
+          [&](const auto& how) { return find_hits_in_chunks(index, queries_of<Query>(rows), mode, take, how); });
 }
 
 void take_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, HitMode mode, unsigned threads,
@@ -102,10 +99,8 @@ py::tuple first_hits(const QueryIndex& index, const Array<double>& rows, bool ar
 
 py::array any_hits(const QueryIndex& index, const Array<double>& rows, bool are_rays, unsigned threads,
                    const py::object& progress) {
-  return truths_of(watched(progress, [&](Watch& watch) {
-    const BatchOptions options = batch_options(watch, threads);
-    return are_rays ? crosses(index, queries_of<Ray>(rows), options)
-                    : crosses(index, queries_of<Segment>(rows), options);
+  return truths_of(watched(progress, BatchOptions{threads}, [&](const auto& how) {
+    return are_rays ? crosses(index, queries_of<Ray>(rows), how) : crosses(index, queries_of<Segment>(rows), how);
   }));
 }
 
@@ -148,8 +143,8 @@ py::tuple all_hits(const QueryIndex& index, const Array<double>& rows, bool are_
 /// `rows` of shape (n, 9).
 py::tuple triangles_met(const QueryIndex& index, const Array<double>& rows, unsigned threads,
                         const py::object& progress) {
-  const FaceBatch batch = watched(progress, [&](Watch& watch) {
-    return find_faces_met(index, queries_of<Triangle>(rows), batch_options(watch, threads));
+  const FaceBatch batch = watched(progress, BatchOptions{threads}, [&](const auto& how) {
+    return find_faces_met(index, queries_of<Triangle>(rows), how);
   });
   std::vector<std::int64_t> faces(batch.faces.size());
   std::ranges::transform(batch.faces, faces.begin(), [](FaceId f) { return prohull::index(f); });
@@ -160,9 +155,8 @@ py::tuple triangles_met(const QueryIndex& index, const Array<double>& rows, unsi
 /// `points` of shape (n, 3).
 py::array points_inside(const QueryIndex& index, const Array<double>& points, unsigned threads,
                         const py::object& progress) {
-  return truths_of(watched(progress, [&](Watch& watch) {
-    return contains(index, queries_of<Vec3>(points), batch_options(watch, threads));
-  }));
+  return truths_of(watched(progress, BatchOptions{threads},
+                           [&](const auto& how) { return contains(index, queries_of<Vec3>(points), how); }));
 }
 
 /// Face, position, distance, and its bounds.
@@ -174,8 +168,8 @@ void set(ClosestColumns& columns, std::size_t row, const ClosestPoint& p) {
 /// `points` of shape (n, 3).
 py::tuple points_closest(const QueryIndex& index, const Array<double>& points, double max_distance, unsigned threads,
                          const py::object& progress) {
-  const auto found = watched(progress, [&](Watch& watch) {
-    return closest_points(index, queries_of<Vec3>(points), max_distance, batch_options(watch, threads));
+  const auto found = watched(progress, BatchOptions{threads}, [&](const auto& how) {
+    return closest_points(index, queries_of<Vec3>(points), max_distance, how);
   });
   ClosestColumns columns(found.size());
   for (std::size_t i = 0; i < found.size(); ++i)
@@ -186,9 +180,8 @@ py::tuple points_closest(const QueryIndex& index, const Array<double>& points, d
 /// `points` of shape (n, 3).
 py::tuple points_signed(const QueryIndex& index, const Array<double>& points, unsigned threads,
                         const py::object& progress) {
-  const auto found = watched(progress, [&](Watch& watch) {
-    return signed_distances(index, queries_of<Vec3>(points), batch_options(watch, threads));
-  });
+  const auto found = watched(progress, BatchOptions{threads},
+                             [&](const auto& how) { return signed_distances(index, queries_of<Vec3>(points), how); });
   ClosestColumns columns(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) set(columns, i, found[i]);
   return columns.arrays();

@@ -132,12 +132,7 @@ LinkHullOptions options_of(const Robot& robot, const py::dict& given) {
 
 std::shared_ptr<RobotHulls> hulls_of(const SharedFile& file, const py::dict& given, const py::object& progress) {
   auto made = std::make_shared<RobotHulls>(RobotHulls{file, options_of(file->robot, given), {}});
-  watched(progress, [&](Watch& watch) {
-    LinkHullOptions options = made->options;
-    options.progress = watch.progress();
-    made->links = link_hulls(file->robot, options);
-    return 0;
-  });
+  made->links = watched(progress, made->options, [&](const auto& how) { return link_hulls(file->robot, how); });
   return made;
 }
 
@@ -203,12 +198,6 @@ py::list files_of(const std::shared_ptr<RobotHulls>& hulls, const std::filesyste
   return files;
 }
 
-std::vector<LinkCheck> checks_of(const SharedFile& file, unsigned threads, const py::object& progress) {
-  return watched(progress, [&](Watch& watch) {
-    return check_links(file->robot, {.threads = threads, .progress = watch.progress()});
-  });
-}
-
 py::dict facts_of(const RobotFile& file, const LinkCheck& check, double allow) {
   py::dict facts;
   facts["name"] = file.robot.links[check.link].name;
@@ -234,7 +223,8 @@ struct RobotChecks {
 
 /// The checks themselves for reports, and their facts.
 py::tuple check_of(const SharedFile& file, double allow, unsigned threads, const py::object& progress) {
-  auto checks = std::make_shared<RobotChecks>(RobotChecks{checks_of(file, threads, progress)});
+  auto checks = std::make_shared<RobotChecks>(RobotChecks{watched(
+      progress, CheckOptions{.threads = threads}, [&](const auto& how) { return check_links(file->robot, how); })});
   py::list facts;
   for (const LinkCheck& check : checks->links) facts.append(facts_of(*file, check, allow));
   return py::make_tuple(checks, facts);
@@ -297,8 +287,7 @@ std::string html_of(const RobotHulls& hulls, const RobotChecks* shipped, double 
   if (shipped) input.shipped = shipped->links;
   if (motion) input.motion = *motion;
   sign(input);
-  return watched(progress,
-                 [&](Watch& watch) { return report_html(input, {.threads = threads, .progress = watch.progress()}); });
+  return watched(progress, PageOptions{.threads = threads}, [&](const auto& how) { return report_html(input, how); });
 }
 
 using SharedShown = std::shared_ptr<view::ShownRobot>;

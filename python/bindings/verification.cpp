@@ -74,9 +74,8 @@ py::dict verify(const Hull& hull, const TriangleMesh& original, const py::object
 }
 
 py::tuple distance(const TriangleMesh& from, const TriangleMesh& to, double relative_gap, const py::object& progress) {
-  const DistanceBounds bounds = watched(progress, [&](Watch& watch) {
-    return distance_bounds(from, to, {.relative_gap = relative_gap, .progress = watch.progress()});
-  });
+  const DistanceBounds bounds = watched(progress, DistanceOptions{.relative_gap = relative_gap},
+                                        [&](const auto& how) { return distance_bounds(from, to, how); });
   return py::make_tuple(bounds.lower, bounds.upper, point_of(bounds.farthest));
 }
 
