@@ -22,26 +22,26 @@ const inThePage = {
 const DEFINED = {'import.meta.url': '"https://page.invalid/"'};  // where nothing is ever fetched from
 
 /** What each page has of the library. */
-async function libraryParts() {
+async function libraryTexts() {
   const module = zlib.deflateSync(fs.readFileSync(inPackage('module.wasm')), {level: 9}).toString('base64');
   const worker = await bundled(inPackage('worker_browser.js'), {define: DEFINED});
   const ofArchives = fs.readFileSync(path.join(require.resolve('fflate'), '..', '..', 'LICENSE'), 'utf8');
   const licence = `${fs.readFileSync(inPackage('LICENSE'), 'utf8')}\nfflate, which reads and writes archives:\n\n${ofArchives}`;  // of all that is in it
-  return {'<!--module-->': module, '<!--worker-->': worker, '<!--licence-->': licence};
+  return {module, worker, licence};
 }
 
-async function writePage(folder, parts) {
+async function writePage(folder, texts) {
   const script = await bundled(inWeb(folder, 'main.js'), {plugins: [inThePage], define: DEFINED});
   const style = await bundled(inWeb(folder, 'style.css'));
   const policy = {scripts: " 'wasm-unsafe-eval'", others: "worker-src 'self' blob:; "};
-  const page = pageOf(withCode(fs.readFileSync(inWeb(folder, 'page.html'), 'utf8'), inWeb('..', '..')), {script, style, policy}, parts);
+  const page = pageOf(withCode(fs.readFileSync(inWeb(folder, 'page.html'), 'utf8'), inWeb('..', '..')), {script, style, texts, policy});
   fs.writeFileSync(path.join(out, `${folder}.html`), page);
 }
 
 async function write() {
   fs.mkdirSync(out, {recursive: true});
-  const parts = await libraryParts();
-  for (const folder of ['app', 'teach']) await writePage(folder, parts);
+  const texts = await libraryTexts();
+  for (const folder of ['app', 'teach']) await writePage(folder, texts);
   fs.copyFileSync(inWeb('app', 'offline.js'), path.join(out, 'app_offline.js'));
 }
 

@@ -20,13 +20,28 @@ exports.bundled = async (file, options = {}) => (await esbuild.build({
 
 const hash = (text) => `'sha256-${crypto.createHash('sha256').update(text).digest('base64')}'`;
 
-/** The script and the style are named by their hashes in the page's policy, so that no other one can ever run. */
-exports.pageOf = (page, {script, style, policy = {}}, parts = {}) => {
-  const {scripts = '', others = ''} = policy;
+/** Of a title, which is the first line of the source, and a body. The script and the style are named by their hashes in the page's policy,
+ *  so that no other one can ever run. `texts` are for the script, by their ids. */
+exports.pageOf = (source, {script, style, texts = {}, policy: {scripts = '', others = ''} = {}}) => {
+  const [title, ...body] = source.split('\n');
   const rules = `default-src 'none'; script-src ${hash(script)}${scripts}; style-src ${hash(style)}; img-src data: blob:; ` +
       `${others}base-uri 'none'; form-action 'none'`;
-  const all = {'<!--policy-->': rules, '/*style*/': style, '/*script*/': script, ...parts};
-  return Object.entries(all).reduce((made, [place, text]) => made.replace(place, () => text), page);
+  const more = Object.entries(texts).map(([id, text]) => `<script type="text/plain" id="${id}">${text}</script>\n`);
+  return `<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="${rules}">
+<meta name="color-scheme" content="light dark">
+${title}
+<style>${style}</style>
+</head>
+<body>
+${body.join('\n')}${more.join('')}<script>${script}</script>
+</body>
+</html>
+`;
 };
 
 const escaped = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;');
