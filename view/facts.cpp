@@ -4,20 +4,12 @@
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
 #include "prohull/union_verification.h"
+#include "robot/json.h"
 
 namespace prohull::view {
 namespace {
 
 constexpr std::size_t kMostOffenders = 20;
-
-nlohmann::json facts_of(const Vec3& p) { return {p.x, p.y, p.z}; }
-
-nlohmann::json facts_of(const std::vector<Offender>& worst) {
-  nlohmann::json all = nlohmann::json::array();
-  for (const Offender& o : worst)
-    all.push_back({{"face", index(o.face)}, {"point", facts_of(o.point)}, {"distance", o.distance}});
-  return all;
-}
 
 nlohmann::json facts_of(const Verification& found) {
   return {{"encloses", found.encloses},
@@ -29,7 +21,7 @@ nlohmann::json facts_of(const Verification& found) {
           {"splits", found.splits},
           {"signs", found.signs},
           {"faces_outside", found.faces_outside},
-          {"worst", facts_of(found.worst)},
+          {"worst", found.worst},
           {"faces_beside_solid", found.faces_beside_solid},
           {"hull_volume", found.hull_volume},
           {"original_volume", found.original_volume},
@@ -44,7 +36,7 @@ nlohmann::json facts_of(const UnionVerification& found) {
           {"original_closed", found.original_closed},
           {"why_not", found.why_not},
           {"faces_outside", found.faces_outside},
-          {"worst", facts_of(found.worst)},
+          {"worst", found.worst},
           {"hull_volume", found.union_volume},
           {"original_volume", found.original_volume},
           {"void_ratio", found.void_ratio},
@@ -77,7 +69,7 @@ nlohmann::json volume_of(const TriangleMesh& mesh, double signed_volume) {
 }
 
 nlohmann::json facts_of(const DistanceBounds& bounds) {
-  return {{"lower", bounds.lower}, {"upper", bounds.upper}, {"farthest", facts_of(bounds.farthest)}};
+  return {{"lower", bounds.lower}, {"upper", bounds.upper}, {"farthest", bounds.farthest}};
 }
 
 }  // namespace

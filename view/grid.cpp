@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "robot/json.h"
+
 namespace prohull::view {
 namespace {
 
@@ -26,6 +28,6 @@ std::array<std::uint32_t, 3> Grid::operator()(const Vec3& point) const {
   return steps;
 }
 
-nlohmann::json Grid::facts() const { return {{"origin", {origin_.x, origin_.y, origin_.z}}, {"step", step_}}; }
+nlohmann::json Grid::facts() const { return {{"origin", origin_}, {"step", step_}}; }
 
 }  // namespace prohull::view

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "robot/json.h"
+
 namespace prohull::view {
 namespace {
 
@@ -23,8 +25,6 @@ const char* motion_of(JointType type) {
   }
 }
 
-json numbers(const Vec3& v) { return {v.x, v.y, v.z}; }
-
 json limit(double value) { return std::isfinite(value) ? json(value) : json(); }
 
 json facts_of(const Joint& joint, double rest) {
@@ -32,14 +32,13 @@ json facts_of(const Joint& joint, double rest) {
                 {"motion", motion_of(joint.type)},
                 {"parent", joint.parent},
                 {"child", joint.child},
-                {"rotation", json::array()},
-                {"translation", numbers(joint.origin.translation)},
-                {"anchor", numbers(joint.anchor)},
-                {"axis", numbers(joint.axis)},
+                {"rotation", joint.origin.rotation},
+                {"translation", joint.origin.translation},
+                {"anchor", joint.anchor},
+                {"axis", joint.axis},
                 {"lower", limit(joint.lower)},
                 {"upper", limit(joint.upper)},
                 {"rest", rest}};
-  for (const Vec3& row : joint.origin.rotation) facts["rotation"].push_back(numbers(row));
   if (joint.mimic)
     facts["mimic"] = {
         {"joint", joint.mimic->joint}, {"multiplier", joint.mimic->multiplier}, {"offset", joint.mimic->offset}};

@@ -11,6 +11,7 @@
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_query.h"
+#include "robot/json.h"
 #include "view/facts.h"
 #include "view/grid.h"
 #include "view/heat.h"
@@ -263,8 +264,7 @@ class Writer {
   /// How far faces that the original does not have reach out of it, if there are any.
   json reach_of(const TriangleMesh& faces, const Reference& reference) const {
     if (faces.face_count() > 0) return distance_facts(faces, reference.mesh, options_);
-    const Vec3 anywhere = reference.mesh.triangle(FaceId{0}).a;
-    return {{"lower", 0.0}, {"upper", 0.0}, {"farthest", {anywhere.x, anywhere.y, anywhere.z}}};
+    return {{"lower", 0.0}, {"upper", 0.0}, {"farthest", reference.mesh.triangle(FaceId{0}).a}};
   }
 
   static std::size_t splits_before(const ProgressiveHull& hull, std::size_t faces) {

@@ -239,7 +239,7 @@ nlohmann::json report_of(const BuildOptions& options, const BuildOutcome& outcom
   in["repair"] = repair_of(outcome);
   in["repairs"] = describe(outcome.made.input.repairs);
   in["obstacle"] = outcome.made.input.obstacle;
-  in["offset"] = {outcome.offset.x, outcome.offset.y, outcome.offset.z};
+  in["offset"] = outcome.offset;
   in["notes"] = notes_of(outcome);
   in["self_intersections"] = count_self_intersections(outcome.made.input.original);
   in["repaired_self_intersections"] = outcome.input_self_intersections;

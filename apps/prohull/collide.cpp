@@ -7,6 +7,7 @@
 #include "prohull/detail/query_io.h"
 #include "prohull/detail/summary.h"
 #include "prohull/error.h"
+#include "robot/json.h"
 #include "solid_notes.h"
 
 namespace prohull::cli {
@@ -150,8 +151,8 @@ nlohmann::json report_of(const CollideOptions& options, const Body& a, const Bod
     for (const Separation& s : answers.separations) {
       all.push_back({{"lower", s.lower}, {"upper", s.upper}});
       if (s.collide()) continue;
-      all.back()["face_a"] = index(s.face_a), all.back()["point_a"] = {s.point_a.x, s.point_a.y, s.point_a.z};
-      all.back()["face_b"] = index(s.face_b), all.back()["point_b"] = {s.point_b.x, s.point_b.y, s.point_b.z};
+      all.back()["face_a"] = index(s.face_a), all.back()["point_a"] = s.point_a;
+      all.back()["face_b"] = index(s.face_b), all.back()["point_b"] = s.point_b;
     }
   }
   return json;

@@ -12,6 +12,7 @@
 #include "prohull/enclosing_hull.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
+#include "robot/json.h"
 
 namespace prohull::cli {
 namespace {
@@ -76,8 +77,7 @@ void print_box(const Box& box) {
 
 void add_box(nlohmann::json& json, const Box& box) {
   json["box"] = nullptr, json["diagonal"] = diagonal_of(box);
-  if (!box.is_empty())
-    json["box"] = {{"min", {box.min.x, box.min.y, box.min.z}}, {"max", {box.max.x, box.max.y, box.max.z}}};
+  if (!box.is_empty()) json["box"] = {{"min", box.min}, {"max", box.max}};
 }
 
 void print_report(const MeshReport& report) {

@@ -46,13 +46,6 @@ std::string link_name(const SpheresOptions& options) {
   return (packed == ".gz" || packed == ".zip" ? name.stem() : name).string();
 }
 
-nlohmann::json json_of(const std::vector<Ball>& balls) {
-  nlohmann::json all = nlohmann::json::array();
-  for (const auto& [center, radius] : balls)
-    all.push_back({{"center", {center.x, center.y, center.z}}, {"radius", radius}});
-  return all;
-}
-
 std::string text_of(const SpheresOptions& options, const std::string& suffix, const std::vector<Ball>& balls) {
   const std::string link = link_name(options);
   const robot::LinkBalls spheres{link, balls};
@@ -92,7 +85,7 @@ nlohmann::json report_of(const SpheresOptions& options, const Outcome& outcome) 
           {"link", link_name(options)},
           {"verdict", facts(cover.verdict)},
           {"within_bounds", cover.within_bounds},
-          {"spheres", json_of(cover.balls)},
+          {"spheres", cover.balls},
           {"solid_is_wrap", cover.is_of_wrap},
           {"volume", cover.volume},
           {"original_volume", cover.original_volume},

@@ -40,9 +40,7 @@ int exit_code_of(const Verdict& verdict, bool is_sure) {
   return verdict.is_undecided() ? kUndecided : kAnswerIsNo;
 }
 
-nlohmann::json facts(const Folds& folds) {
-  return {{"faces", folds.faces}, {"place", {folds.place.x, folds.place.y, folds.place.z}}};
-}
+nlohmann::json facts(const Folds& folds) { return {{"faces", folds.faces}, {"place", folds.place}}; }
 
 nlohmann::json facts(const EnclosingHull& hull) {
   return {{"target_faces", hull.target_faces},

@@ -115,7 +115,7 @@ nlohmann::json near_facts(const std::vector<NearFace>& nearest) {
   for (const NearFace& near : nearest)
     all.push_back({{"face", index(near.face)},
                    {"original_face", index(near.original_face)},
-                   {"point", {near.point.x, near.point.y, near.point.z}},
+                   {"point", near.point},
                    {"distance", near.distance}});
   return all;
 }
@@ -127,7 +127,7 @@ nlohmann::json report_of(const VerifyOptions& options, const Verification& found
                          {"splits", found.splits},
                          {"signs", found.signs},
                          {"faces_outside", found.faces_outside},
-                         {"worst", facts(found.worst)},
+                         {"worst", found.worst},
                          {"cavities", found.cavities},
                          {"faces_undecided", found.faces_undecided},
                          {"faces_beside_solid", found.faces_beside_solid},
@@ -191,7 +191,7 @@ Judged judge(const VerifyOptions& options) {
   const SizeComparison sizes(box_of(hull), face_count(hull), finite_bounding_box(original), found.side);
   Outputs outputs;
   nlohmann::json report = report_of(options, found, gap, seconds);
-  report["offset"] = {offset.x, offset.y, offset.z};
+  report["offset"] = offset;
   report.update(sizes.facts());
   outputs.add_report(options.report, report);
   outputs.commit();
@@ -266,13 +266,6 @@ void print_worst(std::size_t faces_outside, const std::string& mesh, const std::
   for (const Offender& o : worst)
     say("    face {} at {}, {}\n", index(o.face), text_of_point(o.point),
         o.distance > 0 ? fmt::format("{:.6g} outside", o.distance) : "outside by less than rounding lets tell");
-}
-
-nlohmann::json facts(const std::vector<Offender>& worst) {
-  nlohmann::json all = nlohmann::json::array();
-  for (const Offender& o : worst)
-    all.push_back({{"face", index(o.face)}, {"point", {o.point.x, o.point.y, o.point.z}}, {"distance", o.distance}});
-  return all;
 }
 
 void add_verify(CLI::App& app, Run& run) {

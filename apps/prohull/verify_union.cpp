@@ -103,10 +103,10 @@ nlohmann::json report_of(const std::vector<std::filesystem::path>& files, const 
           {"spheres", all.balls.size()},
           {"verdict", facts(static_cast<const Verdict&>(found))},
           {"faces_outside", found.faces_outside},
-          {"worst", facts(found.worst)},
+          {"worst", found.worst},
           {"point_outside", point_or_null(found.point_outside)},
           {"faces_undecided", found.faces_undecided},
-          {"undecided", facts(found.undecided)},
+          {"undecided", found.undecided},
           {"inside_undecided", found.inside_undecided},
           {"holes", found.holes},
           {"turned_pieces", found.turned_pieces},
@@ -146,7 +146,7 @@ int run_verify_union(const VerifyOptions& options) {
   const SizeComparison sizes(box_of(all), face_count(all), finite_bounding_box(original), HullSide::Outer);
   nlohmann::json report = report_of(files, all, found);
   report["original"] = last.string();
-  report["offset"] = {offset.x, offset.y, offset.z};
+  report["offset"] = offset;
   report.update(sizes.facts());
   report["link"] = options.link.empty() ? nlohmann::json() : nlohmann::json(options.link);
   report["seconds"] = seconds;

@@ -31,9 +31,6 @@ std::string text_of_point(const Vec3& p);
 
 void print_worst(std::size_t faces_outside, const std::string& mesh, const std::vector<Offender>& worst);
 
-/// The offenders as reports have them.
-nlohmann::json facts(const std::vector<Offender>& worst);
-
 /// Returns the exit code.
 int run_verify_union(const VerifyOptions& options);
 

@@ -28,8 +28,7 @@ nlohmann::json facts(const Verdict& verdict) {
 }
 
 nlohmann::json facts(const DistanceBounds& bounds) {
-  const Vec3& p = bounds.farthest;
-  const nlohmann::json farthest = bounds.lower > 0 ? nlohmann::json{p.x, p.y, p.z} : nlohmann::json();
+  const nlohmann::json farthest = bounds.lower > 0 ? nlohmann::json(bounds.farthest) : nlohmann::json();
   return {{"lower", json_of(bounds.lower)}, {"upper", json_of(bounds.upper)}, {"farthest", farthest}};
 }
 

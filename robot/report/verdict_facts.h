@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "prohull/verdict.h"
+#include "robot/json.h"
 
 namespace prohull {
 

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "prohull/detail/shapes.h"
+#include "prohull/enclosure.h"
+
+// What stands the same way in all reports, and on pages.
+namespace prohull {
+
+inline void to_json(nlohmann::json& json, const Vec3& p) { json = {p.x, p.y, p.z}; }
+
+inline void to_json(nlohmann::json& json, const Ball& ball) {
+  json = {{"center", ball.center}, {"radius", ball.radius}};
+}
+
+inline void to_json(nlohmann::json& json, const Offender& o) {
+  json = {{"face", index(o.face)}, {"point", o.point}, {"distance", o.distance}};
+}
+
+}  // namespace prohull
