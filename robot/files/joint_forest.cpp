@@ -177,17 +177,4 @@ void set_joints(Robot& robot, std::vector<ListedJoint> listed, const std::vector
   Forest(robot, listed, in_world, unjoined, notes).build();
 }
 
-const Joint* joint_in_mimic_loop(const Robot& robot) {
-  std::vector<std::size_t> seen_from(robot.joints.size(), kNone);
-  for (std::size_t first = 0; first < robot.joints.size(); ++first)
-    for (std::size_t at = first; seen_from[at] == kNone || seen_from[at] == first;) {
-      const Joint& joint = robot.joints[at];
-      if (seen_from[at] == first) return &joint;
-      seen_from[at] = first;
-      if (!joint.mimic) break;
-      at = joint.mimic->joint;
-    }
-  return nullptr;
-}
-
 }  // namespace prohull::robot

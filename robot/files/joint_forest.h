@@ -27,7 +27,4 @@ struct ListedJoint {
 void set_joints(Robot& robot, std::vector<ListedJoint> listed, const std::vector<Pose>& in_world, JointType unjoined,
                 std::vector<std::string>& notes);
 
-/// A joint of a loop of joints that mimic each other, if there is one.
-const Joint* joint_in_mimic_loop(const Robot& robot);
-
 }  // namespace prohull::robot

@@ -8,6 +8,7 @@
 #include "robot/files/joint_forest.h"
 #include "robot/files/mjcf_model.h"
 #include "robot/files/xml_values.h"
+#include "robot/mimics.h"
 #include "robot/transform.h"
 
 namespace prohull::robot {

@@ -13,6 +13,7 @@
 #include "robot/files/sdf_include.h"
 #include "robot/files/sdf_model.h"
 #include "robot/files/xml_values.h"
+#include "robot/mimics.h"
 
 namespace prohull::robot {
 namespace {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "prohull/error.h"
+#include "robot/mimics.h"
 #include "robot/transform.h"
 
 namespace prohull::robot {
@@ -252,15 +253,9 @@ class UrdfReader {
   // Trees. Joints still have the order of the document here.
 
   void refuse_loops_of_mimics() const {
-    std::vector<std::size_t> seen_from(robot_.joints.size(), kNone);
-    for (std::size_t start = 0; start < robot_.joints.size(); ++start)
-      for (std::size_t at = start; seen_from[at] == kNone && robot_.joints[at].mimic;
-           at = robot_.joints[at].mimic->joint) {
-        seen_from[at] = start;
-        if (seen_from[robot_.joints[at].mimic->joint] == start)
-          document_.refuse(*joint_elements_[at], fmt::format("joint '{}' mimics itself, by way of others or directly",
-                                                             robot_.joints[at].name));
-      }
+    if (const Joint* const joint = joint_in_mimic_loop(robot_))
+      document_.refuse(*joint_elements_[static_cast<std::size_t>(joint - robot_.joints.data())],
+                       fmt::format("joint '{}' mimics itself, by way of others or directly", joint->name));
   }
 
   /// The joint that leads to each link; kNone to a root.

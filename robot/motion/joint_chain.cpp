@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -65,14 +64,6 @@ double largest_distance(std::span<const Vec3> points, const Vec3& on_line, const
     largest = std::max(largest, dot(across, across));
   }
   return std::sqrt(largest);
-}
-
-/// A whole turn, where the limits have one. Positions that differ by whole turns are the same.
-JointRange one_turn(const JointRange& limits) {
-  constexpr double kTurn = 2 * std::numbers::pi * (1 + 0x1p-40);  // covers the rounding of its ends
-  if (limits.upper - limits.lower < kTurn) return limits;
-  const double start = std::clamp(-kTurn / 2, limits.lower, limits.upper - kTurn);
-  return {start, start + kTurn};
 }
 
 std::vector<JointReach> reaches_of(std::span<const JointRange> box) {

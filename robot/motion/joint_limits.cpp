@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <utility>
+
+#include "robot/mimics.h"
 
 namespace prohull::robot {
 namespace {
@@ -16,6 +19,15 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 double below(double number) { return std::nextafter(number, -kInfinity); }
 double above(double number) { return std::nextafter(number, kInfinity); }
 
+/// All positions of the joint that follows while the one that is followed is in the range, rounded outwards.
+JointRange following_range(const JointRange& range, const Mimic& mimic) {
+  if (range.is_empty()) return range;
+  if (mimic.multiplier == 0) return {mimic.offset, mimic.offset};
+  const auto [lower, upper] = std::minmax({mimic.multiplier * range.lower, mimic.multiplier * range.upper});
+  const auto rounding = [&](double scaled) { return 0x1p-50 * (std::abs(scaled) + std::abs(mimic.offset)); };
+  return {lower + mimic.offset - rounding(lower), upper + mimic.offset + rounding(upper)};
+}
+
 }  // namespace
 
 double JointRange::middle() const { return std::midpoint(lower, upper); }
@@ -23,6 +35,13 @@ double JointRange::middle() const { return std::midpoint(lower, upper); }
 JointRange own_limits(const Joint& joint) {
   if (joint.type == JointType::Continuous) return {-kInfinity, kInfinity};
   return {joint.lower, joint.upper};
+}
+
+JointRange one_turn(const JointRange& range) {
+  constexpr double kTurn = 2 * std::numbers::pi * (1 + 0x1p-40);  // covers the rounding of its ends
+  if (range.upper - range.lower < kTurn) return range;
+  const double start = std::clamp(-kTurn / 2, range.lower, range.upper - kTurn);
+  return {start, start + kTurn};
 }
 
 // prohull_check_motion rounds likewise.
@@ -44,27 +63,29 @@ Leader leader_of(const Robot& robot, std::size_t joint) {
   return leader;
 }
 
-// A joint is done when all that follow it are. Those that follow each other in a circle never are.
 std::vector<JointRange> allowed_ranges(const Robot& robot) {
   std::vector<JointRange> allowed;
-  std::vector<std::size_t> followers(robot.joints.size()), done;
-  for (const Joint& joint : robot.joints) {
-    allowed.push_back(own_limits(joint));
-    if (joint.mimic) ++followers[joint.mimic->joint];
-  }
-  for (std::size_t j = 0; j < followers.size(); ++j)
-    if (followers[j] == 0) done.push_back(j);
-  for (std::size_t i = 0; i < done.size(); ++i) {
-    const Joint& joint = robot.joints[done[i]];
-    if (!joint.mimic) continue;
+  for (const Joint& joint : robot.joints) allowed.push_back(own_limits(joint));
+  const std::vector<std::size_t> order = leaders_first(robot);
+  for (std::size_t i = order.size(); i-- > 0;) {
+    const Joint& joint = robot.joints[order[i]];
+    if (!joint.mimic || !moves(joint)) continue;
     JointRange& leader = allowed[joint.mimic->joint];
-    if (moves(joint)) {
-      const JointRange range = followed_range(allowed[done[i]], *joint.mimic);
-      leader = {std::max(leader.lower, range.lower), std::min(leader.upper, range.upper)};
-    }
-    if (--followers[joint.mimic->joint] == 0) done.push_back(joint.mimic->joint);
+    const JointRange range = followed_range(allowed[order[i]], *joint.mimic);
+    leader = {std::max(leader.lower, range.lower), std::min(leader.upper, range.upper)};
   }
   return allowed;
+}
+
+std::vector<JointRange> passed_ranges(const Robot& robot) {
+  std::vector<JointRange> ranges = allowed_ranges(robot);
+  for (const std::size_t j : leaders_first(robot)) {
+    const auto& mimic = robot.joints[j].mimic;
+    if (!mimic) continue;
+    const JointRange passed = following_range(ranges[mimic->joint], *mimic);
+    ranges[j] = {std::max(ranges[j].lower, passed.lower), std::min(ranges[j].upper, passed.upper)};
+  }
+  return ranges;
 }
 
 std::vector<std::string> cut_notes(const Robot& robot) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "robot/mimics.h"
 #include "robot/motion/joint_limits.h"
 #include "robot/transform.h"
 
@@ -48,23 +49,9 @@ std::string positions_text(const Robot& robot, std::span<const double> positions
 }
 
 void follow(const Robot& robot, std::vector<double>& positions) {
-  // Chains may be long, so none is followed twice, and not by recursion.
-  enum class State { Open, OnChain, Known };
-  std::vector<State> states(robot.joints.size(), State::Open);
-  std::vector<std::size_t> chain;
-  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-    std::size_t end = j;
-    for (; states[end] == State::Open && robot.joints[end].mimic; end = robot.joints[end].mimic->joint) {
-      states[end] = State::OnChain;
-      chain.push_back(end);
-    }
-    const bool is_circle = states[end] == State::OnChain;
-    for (; !chain.empty(); chain.pop_back()) {
-      const Mimic& mimic = *robot.joints[chain.back()].mimic;
-      if (!is_circle) positions[chain.back()] = mimic.multiplier * positions[mimic.joint] + mimic.offset;
-      states[chain.back()] = State::Known;
-    }
-  }
+  for (const std::size_t j : leaders_first(robot))
+    if (const auto& mimic = robot.joints[j].mimic)
+      positions[j] = mimic->multiplier * positions[mimic->joint] + mimic->offset;
 }
 
 bool continues_row(const Robot& robot, std::size_t joint) {

@@ -15,7 +15,8 @@ Pose joint_pose(const Joint& joint, double position);
 
 /// Where each link is, in the frame of the root that it hangs on, for the positions of all joints. The position of a
 /// joint that mimics is multiplier * position of the other + offset, whatever `positions` says. Joints that mimic each
-/// other in a circle keep their positions. A ball, planar or floating joint stays at rest.
+/// other in a circle keep their positions, and so do those that mimic these. A ball, planar or floating joint stays at
+/// rest.
 std::vector<Pose> link_poses(const Robot& robot, std::span<const double> positions);
 
 /// Positions of all joints for pictures: Joint::rest, or the middle of the limits of a joint that cannot be there. The

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "prohull/detail/scramble.h"
+#include "robot/mimics.h"
 #include "robot/motion/joint_limits.h"
 #include "robot/motion/kinematics.h"
 
@@ -75,21 +76,11 @@ bool moves_as_it_can(const Joint& joint, const JointRange& allowed) {
 }  // namespace
 
 std::vector<bool> sampled_joints(const Robot& robot) {
-  // Chains may be long, as in `follow`.
-  std::vector<bool> sampled(robot.joints.size()), is_known(robot.joints.size());
-  std::vector<std::size_t> chain;
+  std::vector<bool> sampled(robot.joints.size());
   const std::vector<JointRange> allowed = allowed_ranges(robot);
-  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-    std::size_t end = j;
-    for (; !is_known[end]; end = robot.joints[end].mimic->joint) {
-      is_known[end] = true;
-      sampled[end] = moves_as_it_can(robot.joints[end], allowed[end]);
-      chain.push_back(end);
-      if (!robot.joints[end].mimic) break;
-    }
-    for (; !chain.empty(); chain.pop_back())
-      if (const auto& mimic = robot.joints[chain.back()].mimic)
-        sampled[chain.back()] = sampled[chain.back()] && sampled[mimic->joint];
+  for (const std::size_t j : leaders_first(robot)) {
+    const Joint& joint = robot.joints[j];
+    sampled[j] = moves_as_it_can(joint, allowed[j]) && (!joint.mimic || sampled[joint.mimic->joint]);
   }
   return sampled;
 }

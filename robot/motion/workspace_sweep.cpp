@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <utility>
 
 #include "prohull/convex_cover.h"
@@ -20,27 +19,15 @@
 namespace prohull::robot {
 namespace {
 
-/// The positions that a joint can have, rounded outwards. `allowed` are allowed_ranges of the robot.
-JointRange range_of(const Robot& robot, std::span<const JointRange> allowed, std::size_t number,
-                    std::size_t followed = 0) {
-  const Joint& joint = robot.joints[number];
+/// The positions that the joint is swept through, of those that it passes.
+JointRange swept_range(const Joint& joint, const JointRange& passed) {
   const auto refuse = [&](const char* what) {
     throw InputError(Defect::InvalidOption, fmt::format("joint '{}' {}", joint.name, what));
   };
-  JointRange range = allowed[number];
-  if (joint.mimic && followed > robot.joints.size()) refuse("follows itself");
-  if (joint.mimic) {
-    const JointRange other = range_of(robot, allowed, joint.mimic->joint, followed + 1);
-    const auto [lower, upper] =
-        std::minmax({joint.mimic->multiplier * other.lower, joint.mimic->multiplier * other.upper});
-    const double rounding = 0x1p-50 * (std::abs(lower) + std::abs(upper) + std::abs(joint.mimic->offset));
-    range = {std::max(range.lower, lower + joint.mimic->offset - rounding),
-             std::min(range.upper, upper + joint.mimic->offset + rounding)};
-  }
-  constexpr double kHalfTurn = std::numbers::pi * (1 + 0x1p-40);
   if (!moves(joint)) refuse("neither turns nor slides");
-  if (!(range.lower <= range.upper)) refuse("has no position within its limits and those of the joints that follow it");
-  if (turns(joint) && !(range.upper - range.lower < 2 * kHalfTurn)) return {-kHalfTurn, kHalfTurn};
+  if (!(passed.lower <= passed.upper))
+    refuse("has no position within its limits and those of the joints that follow it");
+  const JointRange range = turns(joint) ? one_turn(passed) : passed;
   if (!(std::max(std::abs(range.lower), std::abs(range.upper)) <= kFarthestLimit)) refuse("has no limits");
   return range;
 }
@@ -54,14 +41,27 @@ struct Zone {
 class Workspace {
  public:
   Workspace(const Robot& robot, std::span<const std::size_t> links, Geometry which, const SweepOptions& options)
-      : robot_(robot), allowed_(allowed_ranges(robot)), links_(links), which_(which), options_(options) {}
+      : robot_(robot),
+        passed_(passed_ranges(robot)),
+        is_swept_(robot.links.size()),
+        below_(robot.links.size()),
+        which_(which),
+        options_(options) {
+    for (const std::size_t link : links) is_swept_[link] = true;
+    for (std::size_t j = 0; j < robot.joints.size(); ++j)
+      if (!continues_row(robot, j)) below_[robot.joints[j].parent].push_back(j);
+  }
 
   std::vector<LinkSweep> run() {
+    std::vector<bool> is_child(robot_.links.size());
+    for (const Joint& joint : robot_.joints) is_child[joint.child] = true;
     std::vector<LinkSweep> sweeps;
+    std::vector<Zone> zones(robot_.links.size());
     for (std::size_t link = 0; link < robot_.links.size(); ++link) {
-      if (std::ranges::any_of(robot_.joints, [&](const Joint& joint) { return joint.child == link; })) continue;
+      if (is_child[link]) continue;
       LinkSweep made{robot_.links[link].name, {}};
-      Zone zone = zone_of(link, made);
+      add_zones(link, zones, made);
+      Zone& zone = zones[link];
       if (zone.pieces.empty()) continue;
       made.sweep.pieces = std::move(zone.pieces);
       tell_reach(zone.reach, made.sweep.verdict);
@@ -80,20 +80,38 @@ class Workspace {
     verdict.proof = "sweep";
   }
 
-  Zone zone_of(std::size_t link, LinkSweep& said) const {
-    Zone zone;
-    if (std::ranges::find(links_, link) != links_.end()) add_link(link, zone, said);
-    for (std::size_t first = 0; first < robot_.joints.size(); ++first) {
-      const Joint& joint = robot_.joints[first];
-      if (joint.parent != link || continues_row(robot_, first)) continue;
-      Zone behind = zone_of(joint.child, said);
-      if (behind.pieces.empty()) continue;
-      std::size_t last = first;
-      while (last + 1 < robot_.joints.size() && continues_row(robot_, last + 1)) ++last;
-      for (std::size_t j = last + 1; j-- > first;) behind = moved(j, std::move(behind));
-      std::ranges::move(behind.pieces, std::back_inserter(zone.pieces));
-      zone.reach = std::max(zone.reach, behind.reach);
+  /// The links of a tree, a parent before its children, and what hangs on a child before the next child.
+  std::vector<std::size_t> tree_of(std::size_t root) const {
+    std::vector<std::size_t> tree, open{root};
+    while (!open.empty()) {
+      const std::size_t link = open.back();
+      open.pop_back();
+      tree.push_back(link);
+      for (std::size_t i = below_[link].size(); i-- > 0;) open.push_back(robot_.joints[below_[link][i]].child);
     }
+    return tree;
+  }
+
+  /// The zones of the links of a tree, without recursion, as trees may be deep. That of the root is left.
+  void add_zones(std::size_t root, std::vector<Zone>& zones, LinkSweep& said) const {
+    const std::vector<std::size_t> tree = tree_of(root);
+    for (const std::size_t link : tree)
+      if (is_swept_[link]) add_link(link, zones[link], said);
+    for (std::size_t i = tree.size(); i-- > 0;)
+      for (const std::size_t first : below_[tree[i]]) {
+        Zone behind = moved_by_row(first, std::move(zones[robot_.joints[first].child]));
+        Zone& zone = zones[tree[i]];
+        std::ranges::move(behind.pieces, std::back_inserter(zone.pieces));
+        zone.reach = std::max(zone.reach, behind.reach);
+      }
+  }
+
+  /// By the joint and those that move its child on.
+  Zone moved_by_row(std::size_t first, Zone zone) const {
+    if (zone.pieces.empty()) return zone;
+    std::size_t last = first;
+    while (last + 1 < robot_.joints.size() && continues_row(robot_, last + 1)) ++last;
+    for (std::size_t j = last + 1; j-- > first;) zone = moved(j, std::move(zone));
     return zone;
   }
 
@@ -114,7 +132,7 @@ class Workspace {
   Zone moved(std::size_t number, Zone zone) const {
     const Joint& joint = robot_.joints[number];
     if (joint.type == JointType::Fixed) return placed_by(joint.origin, joint.anchor, std::move(zone));
-    const JointRange range = range_of(robot_, allowed_, number);
+    const JointRange range = swept_range(joint, passed_[number]);
     zone = of_few_pieces(std::move(zone));
     Joint itself = joint;
     itself.origin = {};
@@ -175,8 +193,9 @@ class Workspace {
   }
 
   const Robot& robot_;
-  const std::vector<JointRange> allowed_;
-  const std::span<const std::size_t> links_;
+  const std::vector<JointRange> passed_;
+  std::vector<bool> is_swept_;                   // of each link
+  std::vector<std::vector<std::size_t>> below_;  // of each link: the first joints of its children
   const Geometry which_;
   const SweepOptions& options_;
 };

@@ -186,6 +186,33 @@ TEST(WorkspaceSweep, OfOneJointIsAboutAsLargeAsWhatIsPassed) {
   EXPECT_LT(made.verdict.distance().upper, 0.05);
 }
 
+double top_of(const Sweep& sweep) {
+  double top = -HUGE_VAL;
+  for (const TriangleMesh& piece : sweep.pieces) top = std::max(top, bounding_box(piece).max.z);
+  return top;
+}
+
+// A motor that lifts a nut by 1 cm per radian.
+TEST(WorkspaceSweep, WhatFollowsGoesOnWhileItsLeaderTurnsMoreThanOnce) {
+  const Joint nut = mimicking(limited(joint(JointType::Prismatic, 0, 2, {}, {0, 0, 1}), 0, 1), 0, 0.01, 0);
+  for (const Joint& motor : {joint(JointType::Continuous, 0, 1, {}, {0, 0, 1}),
+                             limited(joint(JointType::Revolute, 0, 1, {}, {0, 0, 1}), 0, 100)}) {
+    const std::vector<std::size_t> links{1, 2};
+    EXPECT_NEAR(top_of(sweep_workspace(robot_of(3, {motor, nut}), links, Geometry::Visual)[0].sweep), 1.5, 1e-6);
+  }
+}
+
+TEST(WorkspaceSweep, TakesTreesOfAnyDepth) {
+  constexpr std::size_t kDepth = 60'000;
+  Robot robot;
+  robot.links.resize(kDepth + 1);
+  for (std::size_t j = 0; j < kDepth; ++j)
+    robot.joints.push_back(joint(JointType::Fixed, j, j + 1, {0, 0, 1e-3}, {0, 0, 1}));
+  robot.links.back().visual.push_back({BoxForm{{1, 1, 1}}});
+  const std::size_t last = kDepth;
+  EXPECT_NEAR(top_of(sweep_workspace(robot, {{last}}, Geometry::Visual)[0].sweep), 60.5, 1e-3);
+}
+
 TEST(WorkspaceSweep, RefusesJointsWithoutBounds) {
   const std::size_t link = 1;
   const auto refused = [&](const Joint& joint) {
