@@ -198,12 +198,20 @@ class SdfReader {
       add_axis(frame, joint, JointType::Revolute, "axis");
       return add_axis(frame, joint, JointType::Revolute, "axis2");
     }
-    const bool is_known = type == "fixed" || type == "ball" || type == "screw" || type == "gearbox";
-    if (!is_known) document_.refuse(element, fmt::format("joint '{}' has the unknown type '{}'", joint.name, type));
-    if (type == "screw" || type == "gearbox")
-      note(fmt::format("joint '{}' in line {} is a {} joint; it is read as fixed", joint.name, joint.line, type));
     listed_.push_back({joint});
-    listed_.back().joint.type = type == "ball" ? JointType::Ball : JointType::Fixed;
+    listed_.back().joint.type = type_without_axis(joint, type, element);
+  }
+
+  JointType type_without_axis(const Joint& joint, const std::string& type, const XmlElement& element) {
+    if (type == "fixed") return JointType::Fixed;
+    if (type == "ball") return JointType::Ball;
+    if (type != "screw" && type != "gearbox")
+      document_.refuse(element, fmt::format("joint '{}' has the unknown type '{}'", joint.name, type));
+    note(
+        fmt::format("joint '{}' in line {} is a {} joint; it is read as floating: nothing is proven across it, but for "
+                    "paths, on which it rests",
+                    joint.name, joint.line, type));
+    return JointType::Floating;
   }
 
   void add_axis(const SdfFrame& frame, Joint joint, JointType type, const std::string& tag) {

@@ -140,13 +140,21 @@ TEST(Sdf, ReadsTheKindsOfJoints) {
   EXPECT_EQ(joints("revolute", "<limit><lower>-inf</lower><upper>1</upper></limit>")[0].lower, -HUGE_VAL);
   EXPECT_EQ(joints("prismatic")[0].type, JointType::Prismatic);
   EXPECT_EQ(joints("ball")[0].type, JointType::Ball);
-  EXPECT_EQ(joints("screw")[0].type, JointType::Fixed);
   const std::vector<Joint> two = joints("universal");
   ASSERT_EQ(two.size(), 2U);
   EXPECT_EQ(two[0].axis, (Vec3{1, 0, 0}));
   EXPECT_EQ(two[1].axis, (Vec3{0, 1, 0}));
   EXPECT_EQ(two[1].name, "j_axis2");
   EXPECT_EQ(two[1].origin, Pose{});
+}
+
+TEST(Sdf, ReadsWhatMovesInOtherWaysAsFloating) {
+  for (const std::string type : {"screw", "gearbox"}) {
+    const RobotFile file = read(in_model("<link name='a'/><link name='b'/><joint name='j' type='" + type +
+                                         "'><parent>a</parent><child>b</child><axis><xyz>1 0 0</xyz></axis></joint>"));
+    EXPECT_EQ(file.robot.joints.at(0).type, JointType::Floating);
+    EXPECT_NE(file.notes.at(0).find("a " + type + " joint; it is read as floating"), std::string::npos);
+  }
 }
 
 TEST(Sdf, ReadsJointsThatMimic) {
