@@ -157,11 +157,14 @@ class MjcfReader {
     const MjcfBody& it = model_.bodies()[body];
     for (const MjcfElement& element : it.joints) add_joint(body, element, &element != &it.joints.front());
     if (!it.joints.empty()) return;
-    ListedJoint weld;
-    weld.joint.name = it.name + "_weld", weld.joint.line = it.element->line;
-    weld.joint.parent = it.parent, weld.joint.child = body, weld.joint.origin = in_parent_[body];
+    const std::string* const mocap = it.element->attribute("mocap");
+    const bool is_moved = mocap && *mocap == "true";  // by the program that simulates
+    ListedJoint held;
+    held.joint.name = it.name + (is_moved ? "_mocap" : "_weld"), held.joint.line = it.element->line;
+    held.joint.type = is_moved ? JointType::Floating : JointType::Fixed;
+    held.joint.parent = it.parent, held.joint.child = body, held.joint.origin = in_parent_[body];
     // A body that is welded to the world is a root.
-    if (it.parent != kWorld) listed_.push_back(std::move(weld));
+    if (it.parent != kWorld || is_moved) listed_.push_back(std::move(held));
   }
 
   void add_joint(std::size_t body, const MjcfElement& element, bool continues) {

@@ -252,6 +252,19 @@ TEST(Mjcf, BodiesOfOneWorldStandWhereTheyStand) {
   EXPECT_NE(file.notes[1].find("geoms of the world are not read: 1"), std::string::npos);
 }
 
+TEST(Mjcf, BodiesOfMotionCaptureFloat) {
+  const Robot robot = read(
+                          "<mujoco><worldbody><body name='a'><geom size='1'/></body><body name='b' mocap='true' "
+                          "pos='0 5 0'/><body name='c' mocap='false'/></worldbody></mujoco>")
+                          .robot;
+  ASSERT_EQ(robot.joints.size(), 3U);
+  EXPECT_EQ(robot.joints[0].name, "b_mocap");
+  EXPECT_EQ(robot.joints[0].type, JointType::Floating);
+  EXPECT_EQ(robot.joints[0].origin, translation_by({0, 5, 0}));
+  EXPECT_EQ(robot.joints[1].type, JointType::Fixed);
+  EXPECT_EQ(robot.joints[2].type, JointType::Fixed);
+}
+
 TEST(Mjcf, RefusesWithTheLine) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {with_body("<body name='a'/>"), "line 3: there is a second <body> called 'a'"},
