@@ -230,7 +230,7 @@ class MjcfReader {
 
   /// joint1 = a0 + a1 joint2 + ..., both counted from `ref`.
   void follow(const XmlElement& element) {
-    const std::string* const active = element.attribute("active");
+    const std::string* const active = model_.equality_value(element, "active");
     if (active && *active == "false") return;
     std::vector<double> a{0, 1, 0, 0, 0};
     if (const std::string* text = element.attribute("polycoef")) {

@@ -201,8 +201,17 @@ std::string MjcfModel::file_name(const std::string& said) const {
 }
 
 const std::string* MjcfModel::value(const MjcfElement& element, std::string_view attribute) const {
+  return value(element, element.element->name, attribute);
+}
+
+const std::string* MjcfModel::equality_value(const XmlElement& element, std::string_view attribute) const {
+  return value(asset(element), "equality", attribute);
+}
+
+const std::string* MjcfModel::value(const MjcfElement& element, const std::string& tag,
+                                    std::string_view attribute) const {
   if (const std::string* own = element.element->attribute(attribute)) return own;
-  const Attributes& inherited = defaults(element.class_name, element.element->name);
+  const Attributes& inherited = defaults(element.class_name, tag);
   const auto found = inherited.find(attribute);
   return found == inherited.end() ? nullptr : &found->second;
 }

@@ -63,7 +63,9 @@ class MjcfModel {
   const std::string* value(const MjcfElement& element, std::string_view attribute) const;
   /// The attributes that a class sets for elements called `tag`.
   const Attributes& defaults(const std::string& class_name, const std::string& tag) const;
-  /// The class of a mesh asset.
+  /// The same of an element of <equality>, whatever its name is.
+  const std::string* equality_value(const XmlElement& element, std::string_view attribute) const;
+  /// The class of an element that is in no body.
   MjcfElement asset(const XmlElement& element) const;
   /// The name of a mesh asset: as it says, or the stem of its file.
   std::string mesh_name(const XmlElement& mesh) const;
@@ -73,6 +75,7 @@ class MjcfModel {
  private:
   using Classes = std::map<std::string, Attributes>;  // by tag
 
+  const std::string* value(const MjcfElement& element, const std::string& tag, std::string_view attribute) const;
   void read_compiler();
   void read_defaults();
   void read_class(const XmlElement& element, const std::string& name);

@@ -225,6 +225,22 @@ TEST(Mjcf, JointsFollowOthersByEquality) {
   EXPECT_EQ(joints[3].upper, 0.25);
 }
 
+TEST(Mjcf, EqualitiesAreActiveAsTheirDefaultsSay) {
+  const auto follows = [](const std::string& equality) {
+    return read(
+               "<mujoco><default><joint active='true'/><equality active='false'/><default class='on'><equality "
+               "active='true'/></default></default><worldbody><body name='a'><body name='b'><joint name='j'/></body>"
+               "<body name='c'><joint name='k'/></body></body></worldbody><equality><joint joint1='k' joint2='j' " +
+               equality + "/></equality></mujoco>")
+        .robot.joints.at(1)
+        .mimic.has_value();
+  };
+  EXPECT_FALSE(follows(""));
+  EXPECT_TRUE(follows("active='true'"));
+  EXPECT_TRUE(follows("class='on'"));
+  EXPECT_FALSE(follows("class='on' active='false'"));
+}
+
 TEST(Mjcf, JointsThatFollowCountFromTheirRefs) {
   const RobotFile file = read(
       "<mujoco><compiler angle='radian'/><default><joint ref='0.5'/></default><worldbody><body name='a'><body name='b'>"
