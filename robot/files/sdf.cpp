@@ -192,8 +192,9 @@ class SdfReader {
   void add_with_type(const SdfFrame& frame, const Joint& joint) {
     const XmlElement& element = *frame.element;
     const std::string& type = document_.required(element, "type");
-    if (type == "revolute" || type == "continuous" || type == "prismatic")
-      return add_axis(frame, joint, type == "prismatic" ? JointType::Prismatic : JointType::Revolute, "axis");
+    if (type == "revolute") return add_axis(frame, joint, JointType::Revolute, "axis");
+    if (type == "continuous") return add_axis(frame, joint, JointType::Continuous, "axis");
+    if (type == "prismatic") return add_axis(frame, joint, JointType::Prismatic, "axis");
     if (type == "universal" || type == "revolute2") {
       add_axis(frame, joint, JointType::Revolute, "axis");
       return add_axis(frame, joint, JointType::Revolute, "axis2");
@@ -219,7 +220,7 @@ class SdfReader {
     const bool second = tag == "axis2";
     joint.type = type;
     joint.axis = axis_in_link(frame, axis, in_world_[joint.child]);
-    read_limits(axis, joint);
+    if (type != JointType::Continuous) read_limits(axis, joint);
     if (type == JointType::Revolute && std::isinf(joint.lower) && std::isinf(joint.upper))
       joint.type = JointType::Continuous;
     if (second) {

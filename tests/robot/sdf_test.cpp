@@ -140,6 +140,8 @@ TEST(Sdf, ReadsTheKindsOfJoints) {
   EXPECT_EQ(joints("revolute", "<limit><lower>-inf</lower><upper>1</upper></limit>")[0].lower, -HUGE_VAL);
   EXPECT_EQ(joints("prismatic")[0].type, JointType::Prismatic);
   EXPECT_EQ(joints("ball")[0].type, JointType::Ball);
+  EXPECT_EQ(joints("continuous", "<limit><lower>-1</lower><upper>1</upper></limit>")[0].type, JointType::Continuous);
+  EXPECT_EQ(joints("continuous", "<limit><lower>-1</lower><upper>1</upper></limit>")[0].upper, HUGE_VAL);
   const std::vector<Joint> two = joints("universal");
   ASSERT_EQ(two.size(), 2U);
   EXPECT_EQ(two[0].axis, (Vec3{1, 0, 0}));
