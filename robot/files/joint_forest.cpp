@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "robot/transform.h"
@@ -54,7 +56,7 @@ class Forest {
         keep(edge);
       else
         leave_out(edge);
-    const bool needs_world = trees() > 1;
+    const bool needs_world = trees() > 1 || moves_in_world();
     if (needs_world) robot_.links.push_back({"world", {}, {}, 0});
     for (const Edge& edge : to_world_) grow_from_world(edge, needs_world);
     for (const bool children : {false, true})
@@ -72,6 +74,13 @@ class Forest {
       else
         result.push_back({i, 1, listed_[i].joint.parent, listed_[i].joint.child});
     return result;
+  }
+
+  bool moves_in_world() const {
+    return std::ranges::any_of(to_world_, [&](const Edge& edge) {
+      const auto joints = std::span(listed_).subspan(edge.first, edge.count);
+      return std::ranges::any_of(joints, [](const ListedJoint& it) { return moves(it.joint); });
+    });
   }
 
   std::size_t tree_of(std::size_t link) {

@@ -9,9 +9,10 @@ namespace prohull::robot {
 /// The robot of a document whose root is <mujoco>. Throws as read_robot does.
 ///
 /// Geoms that collide, by contype, conaffinity or <contact>, are collision geometry, and the others are visual. A body
-/// without others has its geoms as both. Where there is more than one body in the world, it becomes a link "world".
-/// Left out, with a note: geoms of the world, <replicate>, <composite>, <flexcomp>, <attach>, and <equality> but for
-/// joints that follow others in a straight line. Included files are part of the document: with_included_files.
+/// without others has its geoms as both. Where there is more than one body in the world, or a joint turns or slides the
+/// only one, it becomes a link "world". Bodies of motion capture are floating. Left out, with a note: geoms of the
+/// world, <replicate>, <composite>, <flexcomp>, <attach>, and <equality> but for joints that follow others in a
+/// straight line. Included files are part of the document: with_included_files.
 RobotFile read_mjcf(const XmlDocument& document, const Packages& packages);
 
 /// What with_collisions does for MJCF. The hull of a body takes the place, the name and the contact parameters of its

@@ -11,7 +11,8 @@ namespace prohull::robot {
 ///
 /// Universal and revolute2 joints are two joints in a row, the second one called NAME_axis2. Left out, with a note:
 /// further models, joints that close a loop, and includes that with_included_models leaves. Screw and gearbox joints
-/// are read as floating, with a note. Links that no joint connects hang on a link "world", which is added.
+/// are read as floating, with a note. Where links stand in the world that no joint connects, or a joint turns or slides
+/// the only one, they hang on a link "world", which is added.
 RobotFile read_sdf(const XmlDocument& document, const Packages& packages);
 
 /// What with_collisions does for SDF. The first <collision> of a link keeps its name and what else is in it, and gets a

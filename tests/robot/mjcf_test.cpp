@@ -281,6 +281,17 @@ TEST(Mjcf, BodiesOfMotionCaptureFloat) {
   EXPECT_EQ(robot.joints[2].type, JointType::Fixed);
 }
 
+TEST(Mjcf, AJointThatMovesTheOnlyTreeInTheWorldIsKept) {
+  const Robot robot = read(with_body("<joint name='x' type='slide' range='-2 2'/><joint name='y'/>")).robot;
+  ASSERT_EQ(robot.links.size(), 2U);
+  EXPECT_EQ(robot.links[1].name, "world");
+  ASSERT_EQ(robot.joints.size(), 2U);
+  EXPECT_EQ(robot.joints[0].name, "x");
+  EXPECT_EQ(robot.joints[0].parent, 1U);
+  EXPECT_EQ(robot.joints[0].child, 0U);
+  EXPECT_EQ(robot.joints[1].name, "y");
+}
+
 TEST(Mjcf, RefusesWithTheLine) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {with_body("<body name='a'/>"), "line 3: there is a second <body> called 'a'"},

@@ -206,6 +206,24 @@ TEST(Sdf, MakesAForestOfAnyJoints) {
   EXPECT_NE(file.notes[0].find("'ca'"), std::string::npos);
 }
 
+TEST(Sdf, AJointThatMovesTheOnlyTreeInTheWorldIsKept) {
+  const auto robot = [](const std::string& type) {
+    return read(in_model("<link name='a'/><link name='b'/><joint name='w' type='" + type +
+                         "'><parent>world</parent><child>a</child><axis><xyz>0 0 1</xyz></axis></joint>"
+                         "<joint name='ab' type='fixed'><parent>a</parent><child>b</child></joint>"))
+        .robot;
+  };
+  EXPECT_EQ(robot("fixed").links.size(), 2U);
+  for (const std::string type : {"revolute", "prismatic"}) {
+    const Robot moved = robot(type);
+    ASSERT_EQ(moved.links.size(), 3U);
+    EXPECT_EQ(moved.links[2].name, "world");
+    ASSERT_EQ(moved.joints.size(), 2U);
+    EXPECT_EQ(moved.joints[0].name, "w");
+    EXPECT_EQ(moved.joints[0].parent, 2U);
+  }
+}
+
 TEST(Sdf, TurnsAJointWhoseChildHangsAlready) {
   // a -> b <- c: the joint from c to b is read as one from b to c that turns the other way.
   const Robot robot =
