@@ -46,16 +46,22 @@ Pose rotation_by(const MjcfModel& model, const MjcfElement& element, std::string
   return rotation_about(unit_vector(document, xml, {v[0], v[1], v[2]}, "the axis of axisangle"), v[3] * unit);
 }
 
-/// What the element itself says goes before what its class says.
-std::string_view orientation_of(const MjcfModel& model, const MjcfElement& element) {
-  for (const std::string_view attribute : kMjcfOrientations)
-    if (element.element->attribute(attribute)) return attribute;
-  for (const std::string_view attribute : kMjcfOrientations)
-    if (model.value(element, attribute)) return attribute;
-  return "";
-}
-
 }  // namespace
+
+// All but quat replace quat, also one of the element that its class says. Where there are several others, MuJoCo 2
+// takes the last one in the order of kMjcfOrientations, and MuJoCo 3 that of the element.
+std::string_view mjcf_orientation(const MjcfModel& model, const MjcfElement& element) {
+  std::string_view last;
+  std::size_t others = 0;
+  for (const std::string_view attribute : kMjcfOrientations)
+    if (model.value(element, attribute)) last = attribute, others += attribute != "quat";
+  if (others > 1 && !element.element->attribute(last))
+    model.document().refuse(*element.element,
+                            fmt::format("<{}> has {} from its default class beside another orientation; versions of "
+                                        "MuJoCo differ in which one counts",
+                                        element.element->name, last));
+  return last;
+}
 
 std::vector<double> mjcf_numbers(const MjcfModel& model, const MjcfElement& element, std::string_view attribute,
                                  std::size_t least, std::size_t most) {
@@ -92,7 +98,7 @@ Pose mjcf_pose(const MjcfModel& model, const MjcfElement& element) {
       return pose;
     }
   }
-  const std::string_view orientation = orientation_of(model, element);
+  const std::string_view orientation = mjcf_orientation(model, element);
   Pose pose = orientation.empty() ? Pose{} : rotation_by(model, element, orientation);
   const std::vector<double> pos = mjcf_numbers(model, element, "pos", 3, 3);
   if (!pos.empty()) pose.translation = bounded(document, *element.element, {pos[0], pos[1], pos[2]});

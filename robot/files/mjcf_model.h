@@ -15,8 +15,8 @@
 
 namespace prohull::robot {
 
-/// The attributes that say how an element is turned; the first one that an element has counts.
-inline constexpr std::array<std::string_view, 5> kMjcfOrientations{"quat", "axisangle", "euler", "xyaxes", "zaxis"};
+/// The attributes that say how an element is turned.
+inline constexpr std::array<std::string_view, 5> kMjcfOrientations{"quat", "axisangle", "xyaxes", "zaxis", "euler"};
 
 /// What <compiler> says.
 struct MjcfCompiler {
@@ -114,6 +114,10 @@ using MjcfAttribute = std::pair<std::string, std::string>;
 
 /// The pose as pos and quat, where they are not those of a geom that says nothing.
 std::vector<MjcfAttribute> mjcf_attributes_of(const Pose& pose);
+
+/// The one of kMjcfOrientations that counts, of those that the element and its default class say; empty if there is
+/// none. Throws InputError(Malformed) where that depends on the version of MuJoCo.
+std::string_view mjcf_orientation(const MjcfModel& model, const MjcfElement& element);
 
 /// The pose that pos and quat, axisangle, euler, xyaxes or zaxis say, fromto too where that is allowed.
 Pose mjcf_pose(const MjcfModel& model, const MjcfElement& element);

@@ -119,7 +119,7 @@ class MjcfWriter {
     NewGeom geom{visual.element, visual.home, body.child_class, {}, ""};
     std::vector<MjcfAttribute> shape;
     for (const std::string_view key : kShapeAttributes)
-      if (const std::string* value = model_.value(visual, key)) shape.emplace_back(key, *value);
+      if (const std::string* value = word_of(visual, key)) shape.emplace_back(key, *value);
     geom.attributes = with_shape(like, geom, std::move(shape), body);
     return geom;
   }
@@ -136,8 +136,14 @@ class MjcfWriter {
       return mjcf_attributes_of(geom.frame == Pose{} ? origin : composed(inverse(geom.frame), origin));
     std::vector<MjcfAttribute> words;
     for (const std::string_view key : kPoseAttributes)
-      if (const std::string* value = model_.value(geom, key)) words.emplace_back(key, *value);
+      if (const std::string* value = word_of(geom, key)) words.emplace_back(key, *value);
     return words;
+  }
+
+  /// Of orientations only the one that counts: MuJoCo refuses several in one element.
+  const std::string* word_of(const MjcfElement& geom, std::string_view key) const {
+    const bool is_orientation = std::ranges::count(kMjcfOrientations, key) > 0;
+    return is_orientation && key != mjcf_orientation(model_, geom) ? nullptr : model_.value(geom, key);
   }
 
   /// The attributes of the geom that is replaced, with another shape. Without such a geom: one that collides, in the
@@ -165,12 +171,16 @@ class MjcfWriter {
   }
 
   /// Says what is the same without a word, against a class that says something else.
-  static void add_missing_pose(std::vector<MjcfAttribute>& shape) {
+  void add_missing_pose(std::vector<MjcfAttribute>& shape) const {
     const auto says = [&](std::string_view key) {
       return std::ranges::any_of(shape, [&](const MjcfAttribute& it) { return it.first == key; });
     };
     if (!says("pos")) shape.emplace_back("pos", "0 0 0");
-    if (std::ranges::none_of(kMjcfOrientations, says)) shape.emplace_back("quat", "1 0 0 0");
+    if (std::ranges::none_of(kMjcfOrientations, says)) shape.emplace_back("euler", "0 0 0");  // before all of a class
+    if (!says("quat")) return;
+    for (const std::string_view key : kMjcfOrientations)
+      if (key != "quat" && model_.defaults(model_.main_class(), "geom").contains(key))
+        refuse_default(fmt::format("{} for all geoms, which goes before what a hull says by quat", key));
   }
 
   static bool is_copied(std::string_view key, const MjcfBody& body) {
@@ -357,9 +367,11 @@ class MjcfWriter {
 
   void refuse_fromto() const {
     if (model_.defaults(model_.main_class(), "geom").contains("fromto"))
-      throw InputError(Defect::Malformed, fmt::format("{}: the main <default> sets fromto for all geoms, which no mesh "
-                                                      "or sphere can have",
-                                                      document_.file()));
+      refuse_default("fromto for all geoms, which no mesh or sphere can have");
+  }
+
+  [[noreturn]] void refuse_default(const std::string& what) const {
+    throw InputError(Defect::Malformed, fmt::format("{}: the main <default> sets {}", document_.file(), what));
   }
 
   /// What default classes say about meshes must not change a hull.

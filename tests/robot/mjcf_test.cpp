@@ -308,6 +308,8 @@ TEST(Mjcf, RefusesWithTheLine) {
       {with_body("<geom size='1' quat='0 0 0 0'/>"), "length 0"},
       {with_body("<geom size='1' xyaxes='1 0 0 2 0 0'/>"), "length 0"},
       {with_body("<geom type='capsule' size='1' fromto='1 1 1 1 1 1'/>"), "length 0"},
+      {with_body("<geom size='1' axisangle='1 0 0 90'/>", "<default><geom euler='0 0 90'/></default>"),
+       "has euler from its default class beside another orientation"},
       {with_body("<joint axis='0 0 0'/>"), "length 0"},
       {with_body("<joint limited='true'/>"), "is limited"},
       {with_body("<joint name='j'/><joint name='j'/>"), "second joint called 'j'"},

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <memory>
 
+#include "prohull/error.h"
 #include "prohull/mesh_io.h"
 #include "prohull/mesh_query.h"
 #include "prohull/sample.h"
@@ -13,6 +14,7 @@
 #include "robot/files/robot_file.h"
 #include "robot/motion/kinematics.h"
 #include "robot/robot_testing.h"
+#include "robot/transform.h"
 
 namespace prohull::robot {
 namespace {
@@ -222,6 +224,45 @@ TEST_F(InMujoco, BodiesStandWhereMujocoHasThem) {
     EXPECT_NEAR(robot.joints[j].lower, model->jnt_range[2 * j], 1e-12);
     EXPECT_NEAR(robot.joints[j].upper, model->jnt_range[2 * j + 1], 1e-12);
   }
+}
+
+// The orientations of an element and of its class may be of two kinds.
+TEST_F(InMujoco, GeomsAreTurnedAsMujocoTurnsThem) {
+  const std::array<std::string, 6> kinds{
+      "", "quat='1 2 3 4'", "axisangle='1 2 3 40'", "xyaxes='1 2 3 3 1 2'", "zaxis='1 2 3'", "euler='10 20 30'"};
+  std::size_t refused = 0;
+  for (const std::string& of_class : kinds)
+    for (const std::string& own : kinds) {
+      SCOPED_TRACE(of_class + " and " + own);
+      write_bytes(folder_ / "arm.xml", "<mujoco><default><geom size='.1 .2' type='capsule' " + of_class +
+                                           "/></default><worldbody><body name='a'><geom " + own +
+                                           "/></body></worldbody></mujoco>");
+      const Model model = load(folder_ / "arm.xml");
+      ASSERT_TRUE(model);
+      const mjtNum* const q = model->geom_quat;
+      try {
+        const Pose read = read_robot(folder_ / "arm.xml").robot.links.at(0).visual.at(0).origin;
+        const Pose expected = pose_of_quaternion(q[0], q[1], q[2], q[3]);
+        for (int row = 0; row < 3; ++row) EXPECT_LT(norm(read.rotation[row] - expected.rotation[row]), 1e-12);
+      } catch (const InputError&) {
+        ++refused;
+      }
+    }
+  EXPECT_EQ(refused, 6U) << "one of the last four kinds, and a later one of the class, which MuJoCo 3 reads otherwise";
+}
+
+TEST_F(InMujoco, HullsStandWhereTheirPartsDoWhateverTheDefaultsSay) {
+  write_mesh(folder_ / "part.stl", make_sample("bracket", 300));
+  write_bytes(folder_ / "arm.xml",
+              "<mujoco><asset><mesh name='m' file='part.stl'/></asset><default><geom euler='10 20 30' pos='1 2 3'/>"
+              "</default><worldbody><body name='a'><geom type='mesh' mesh='m' quat='0 1 0 0'/></body></worldbody>"
+              "</mujoco>");
+  const Pose part = read_robot(folder_ / "arm.xml").robot.links.at(0).visual.at(0).origin;
+  prohull("urdf arm.xml --faces 60 --configurations 0 --prove 0 --no-pictures -o made");
+  EXPECT_TRUE(load(folder_ / "made/arm.xml"));
+  EXPECT_EQ(read_robot(folder_ / "made/arm.xml").robot.links.at(0).collision.at(0).origin, part);
+  prohull("urdf arm.xml --collision spheres --spheres 8 --configurations 0 --prove 0 --no-pictures -o balls");
+  EXPECT_TRUE(load(folder_ / "balls/arm.xml"));
 }
 
 // URDF that became MJCF
