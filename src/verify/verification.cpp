@@ -167,7 +167,7 @@ class Judge {
 
   /// The triangles of the original that are no faces of its stand-in, as those that repair has dropped.
   void cover_what_is_not_in_the_solid(const TriangleMesh& hull) {
-    if (!stand_in_ || !is_outer() || !found.is_yes() || stand_in_->rest.empty()) return;
+    if (!asks_triangles() || !stand_in_ || !is_outer() || !found.is_yes() || stand_in_->rest.empty()) return;
     EnclosureReport report = covered(original_.mesh(), stand_in_->rest, hull, next_step());
     found.covers_triangles = verify::answer_of(report);
     if (found.covers_triangles == Answer::No) found.why_not = kLeavesTriangles;

@@ -325,6 +325,37 @@ TEST(VerifyHull, ComparesWithAClosedMeshThatStandsForAnOpenOne) {
   EXPECT_EQ(fin.worst[0].face, FaceId{static_cast<std::uint32_t>(more.face_count() - 1)});
 }
 
+/// A prism whose outline is an 8. Its solid is the lobe at x < 2.5, more or less; the other lobe is inside out.
+TriangleMesh prism_of_an_eight() {
+  TriangleMesh mesh;
+  for (const double z : {0, 1})
+    for (const Vec3& p : {Vec3{0, -3, z}, Vec3{5, 1, z}, Vec3{5, -1, z}, Vec3{0, 3, z}}) mesh.positions.push_back(p);
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    mesh.triangles.push_back({VertexId{a}, VertexId{b}, VertexId{c}});
+  };
+  add(4, 5, 6), add(4, 6, 7), add(0, 2, 1), add(0, 3, 2);
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const std::uint32_t next = (i + 1) % 4;
+    add(i, next, 4 + next), add(i, 4 + next, 4 + i);
+  }
+  return mesh;
+}
+
+// The triangles that the stand-in leaves out were asked all the same: "yes" to all, or no certificate.
+TEST(VerifyHull, IsNotAskedForTrianglesBesideAStandInWithSolidOnly) {
+  const TriangleMesh closed = prism_of_an_eight(), hull = box({-1, -4, -1}, {4, 4, 2});
+  for (const double z : {0.4, 5.0}) {
+    const TriangleMesh loose = make({{1, 0, z}, {1.5, 0, z}, {1, 0.5, z}}, {{0, 1, 2}});
+    const TriangleMesh open = together(without_a_face(closed), loose);
+    const Verification all = verify_hull(hull, open, HullSide::Outer, {.closed = &closed});
+    EXPECT_EQ(all.covers_triangles, Answer::No);
+    const Verification solid = verify_hull(hull, open, HullSide::Outer, {.solid_only = true, .closed = &closed});
+    EXPECT_TRUE(solid.certified) << solid.why_not;
+    EXPECT_EQ(solid.encloses_solid, Answer::Yes);
+    EXPECT_EQ(solid.covers_triangles, Answer::NotAsked);
+  }
+}
+
 TEST(VerifyHull, TurnsMeshesThatAreInsideOutAndSaysSo) {
   const Verification found = verify_hull(kLarge, inside_out(kSmall));
   EXPECT_TRUE(found.encloses);
