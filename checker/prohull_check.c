@@ -179,7 +179,7 @@ static void set_normal(Number n[3], Point a, Point a0, Point b, Point b0) {
 
 /* det(p0 - p1, p2 - p3, p4 - p5), rounded, and a bound of the error. It is below (7 + 56 2^-53) 2^-53 of the sum of the
    products' sizes, as Shewchuk counts, and so below 1e-15 of that; what underflows is less than 1e-200, as differences
-   are below 1e90. */
+   are below 1e90. Where they are not, the bound is infinite. */
 static double rounded(const Point p[6], double* error) {
   double d[3][3], size = 0;
   for (int i = 0; i < 3; ++i)
@@ -190,7 +190,7 @@ static double rounded(const Point p[6], double* error) {
                     size_of(d[0][2]) * (size_of(f) + size_of(g))) +
            1e-200;
   if (size < 1e90) return d[0][0] * (a - b) + d[0][1] * (c - e) + d[0][2] * (f - g);
-  return 0;
+  return *error = LARGEST * size, 0;
 }
 
 /* The sign of det(a - a0, b - b0, q - c), where q is the middle of n points with positive weights. */
@@ -784,6 +784,7 @@ static int winding(const Surface* s, const Spot* spot, int axis, int direction) 
   for (int k = 0; k < 3 && all > 2 * lost; ++k) {
     const double at = (w[0].value * q[0][k] + w[1].value * q[1][k] + w[2].value * q[2][k]) / all,
                  error = (8 * lost / all + 1e-14) * (size_of(q[0][k]) + size_of(q[1][k]) + size_of(q[2][k])) + 1e-300;
+    if (at - at != 0) continue; /* products may overflow */
     if (at - error > ray.box.low[k]) ray.box.low[k] = at - error;
     if (at + error < ray.box.high[k]) ray.box.high[k] = at + error;
   }

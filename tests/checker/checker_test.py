@@ -122,6 +122,14 @@ class Tetrahedra(Checked):
             self.expect(PROVEN, "components of the original that are turned: 1", [surfaces()], hull, turned, turned=[7])
             self.expect(NOT_PROVEN, "not negative", [surfaces()], hull, cube, turned=[7])
 
+    def test_know_turned_components_of_which_some_triangles_are_too_large_to_round(self):
+        # Of a cube with a spike: beside the tip, from where volumes are counted, those of the others are negative.
+        spiked = ([(12, 4, 4) if p == (8, 4, 4) else p for p in CUBE[0]], CUBE[1])
+        for scale in (1e90 / n for n in (20, 30, 40)):
+            hull, cube = scaled(box((-1, -1, -1), (13, 9, 9)), scale), scaled(spiked, scale)
+            self.expect(NOT_PROVEN, "not negative", [surfaces()], hull, cube, turned=[7])
+            self.expect(PROVEN, "turned: 1", [surfaces()], hull, turned(cube), turned=[7])
+
 
 class Surfaces(Checked):
     def test_prove_outer_and_inner_hulls(self):
@@ -184,6 +192,17 @@ class Surfaces(Checked):
         shell = (WIDE[0] + inside[0], WIDE[1] + [(a + 8, c + 8, b + 8) for a, b, c in inside[1]])
         self.expect(PROVEN, "covers", [surfaces(1)], shell, CUBE)
         self.expect(NOT_PROVEN, "hole", [surfaces(3)], shell, CUBE)
+
+    def test_leave_no_room_between_slabs_of_any_size(self):
+        # Parts of triangles had middles whose weights, times coordinates, overflowed: no ray from there met anything.
+        slabs = ([], [])
+        for k in range(3):
+            for low, high in ((-1, 2), (6, 9)):
+                slabs = both(slabs, box(*(tuple(x if i == k else wide for i in range(3)) for x, wide in ((low, -1), (high, 9)))))
+        for scale in (1.0, 2.0**1000, 2.0**1018):
+            hull, cube = scaled(slabs, scale), scaled(CUBE, scale)
+            self.expect(PROVEN, "covers", [surfaces(1)], hull, cube)
+            self.expect(NOT_PROVEN, "hole", [surfaces(3)], hull, cube)
 
     def test_refuse_a_hull_that_is_turned_or_open(self):
         self.expect(NOT_PROVEN, "outside", [surfaces()], (WIDE[0], [(a, c, b) for a, b, c in WIDE[1]]), CUBE)
