@@ -1306,7 +1306,27 @@ static void prove_gap(Case* c) {
   c->claims |= GAP;
 }
 
-/* Divides faces of the original into other triangles, which have the same boundary. */
+static int64_t* side_at(Map* sides, uint32_t a, uint32_t b) {
+  return &slot_at(sides, a < b ? a : b, a < b ? b : a, NONE)->value;
+}
+
+/* Whether the triangles have all sides of the face of which they take the fan's place. Corner x of a triangle of the
+   fan is corner 3 - x of the next one, and x is 1 if the fan is turned, or else 2. `sides` is empty. */
+static int has_all_sides(Map* sides, uint32_t (*t)[3], uint32_t (*fan)[3], size_t n) {
+  int missing = 0, is_fan = 0;
+  for (size_t i = 0; i < 3 * n; ++i) *side_at(sides, t[i / 3][i % 3], t[i / 3][(i + 1) % 3]) = 1;
+  for (int x = 1; x <= 2; ++x) {
+    size_t i = 0;
+    while (i + 1 < n && fan[i][x] == fan[i + 1][3 - x]) ++i;
+    if (i + 1 < n) continue;
+    const uint32_t *const first = fan[0], *const last = fan[n - 1];
+    is_fan = 1, missing |= !*side_at(sides, first[0], first[3 - x]) || !*side_at(sides, last[0], last[x]);
+    for (i = 0; i < n; ++i) missing |= !*side_at(sides, fan[i][1], fan[i][2]);
+  }
+  return is_fan && !missing;
+}
+
+/* Divides faces of the original into other triangles, which have the same boundary and all sides of the face. */
 static void divide_faces(Case* c) {
   const Mesh* const m = &c->original;
   for (uint64_t left = number(&c->file, m->n + 1); left > 0; --left) {
@@ -1315,12 +1335,15 @@ static void divide_faces(Case* c) {
     Map sum = {NULL, 0, 0};
     while (first + n < m->n && m->face[first + n] == m->face[first]) add_edges(&sum, m->t[first + n++], 1);
     uint32_t(*const fan)[3] = memcpy(resized(NULL, n, sizeof *fan), m->t + first, n * sizeof *fan);
+    uint32_t(*const divided)[3] = m->t + first;
     for (size_t i = 0; i < 3 * n; ++i) {
       const size_t from = (size_t)number(&c->file, 3 * n);
-      m->t[first + i / 3][i % 3] = fan[from / 3][from % 3];
+      divided[i / 3][i % 3] = fan[from / 3][from % 3];
     }
-    for (size_t i = 0; i < n; ++i) add_edges(&sum, m->t[first + i], -1);
+    for (size_t i = 0; i < n; ++i) add_edges(&sum, divided[i], -1);
     if (sum.used) end(1, "the face of triangle %lu is divided into triangles that bound another one", COUNT(first));
+    if (!has_all_sides(&sum, divided, fan, n))
+      end(1, "the face of triangle %lu is divided into triangles that leave out sides of it", COUNT(first));
     free(fan), free(sum.slot);
   }
 }

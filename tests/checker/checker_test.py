@@ -288,6 +288,21 @@ class Formats(Checked):
         for sections in ([right], [right, right, surfaces(1)], [right, surfaces(1), right]):
             self.assertEqual(ask(*sections), UNREADABLE)
 
+    def test_faces_that_are_folded_are_not_divided_away(self):
+        # Each sticks out of the cube; its boundary, as a sum, is 0, or that of the triangle (0, 1, 2).
+        hull = box((-2, -2, -2), (2, 2, 2))
+        points = b"0 0 0\n1 0 0\n0 1 0\n9 0 0\n"
+        for corners, leaves_out in (
+            ((0, 1, 3, 1), (0, 0, 0, 0, 0, 0)),
+            ((1, 3, 1, 0), (0, 5, 5, 0, 0, 0)),
+            ((0, 1, 2, 0, 3), (0, 1, 2, 0, 0, 0, 0, 0, 0)),
+            ((1, 2, 0, 3, 0), (0, 1, 2, 0, 0, 0, 0, 0, 0)),
+        ):
+            face = b"OFF\n4 1 0\n" + points + b"%d %s\n" % (len(corners), b" ".join(b"%d" % c for c in corners))
+            section = number(6) + number(1) + number(0) + b"".join(map(number, leaves_out))
+            got = self.check(certificate(12, len(corners) - 2, section, surfaces(1)), hull, face)
+            self.assertEqual((got[0], "leave out sides" in got[1]), (NOT_PROVEN, True), (corners, got))
+
     def test_decimals_are_rounded_correctly(self):
         text = "OFF\n3 1 0\n8.99999999999999999999999 0 0\n0 0 0\n0 1 0\n3 0 1 2\n".encode()
         hull = box((-1, -1, -1), (9, 9, 9))
