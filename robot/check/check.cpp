@@ -261,6 +261,8 @@ class LinkChecker {
     } else if (check_.sticks_out_at_least == 0 && part.outside.face_count() > 0) {
       const Triangle face = part.outside.triangle(FaceId{});
       check_.worst_point = (face.a + face.b + face.c) / 3;
+    } else if (check_.sticks_out_at_least == 0) {
+      check_.worst_point = part.reach.farthest;
     }
   }
 

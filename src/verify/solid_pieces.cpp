@@ -364,12 +364,61 @@ PieceCover cover_flat(const TriangleMesh& faces, const SolidPieces& pieces, cons
   return result;
 }
 
+bool is_within_one(const TriangleMesh& mesh, std::span<const CurvedForm> forms) {
+  return std::ranges::any_of(forms, [&](const CurvedForm& form) {
+    return std::ranges::all_of(mesh.positions, [&](const Vec3& p) { return form.contains(p); });
+  });
+}
+
+/// Whether the pieces leave no hole in a curved form, the surface of which they cover: decided for a mesh around it,
+/// and that they do for a mesh within it.
+Covers fill(const SolidPieces& pieces, const CurvedForm& form, std::size_t segments, const Progress& progress) {
+  const TriangleMesh around = form.mesh(Curved::Around, segments), within = form.mesh(Curved::Within, segments);
+  if (is_within_one(around, pieces.curved)) return Covers::Yes;
+  if (const std::vector<Ball> balls = only_balls(pieces); !balls.empty()) {
+    if (verify_union(balls, around, true, {.progress = progress}).certified) return Covers::Yes;
+    return verify_union(balls, within, true, {.progress = progress}).holes > 0 ? Covers::No : Covers::Unknown;
+  }
+  const auto enclosing = [&](const TriangleMesh& inner, const TriangleMesh& piece) {
+    return verify_enclosure(inner, piece, {.progress = progress});
+  };
+  if (std::ranges::any_of(pieces.tangled, [&](const auto& piece) { return enclosing(around, piece).encloses; }))
+    return Covers::Yes;
+  if (pieces.solids.face_count() == 0 && pieces.curved.empty()) return Covers::Unknown;
+  if (enclosing(around, solid_mesh(pieces, Curved::Within, segments)).encloses) return Covers::Yes;
+  const bool has_hole =
+      pieces.tangled.empty() && enclosing(within, solid_mesh(pieces, Curved::Around, segments)).cavities > 0;
+  return has_hole ? Covers::No : Covers::Unknown;
+}
+
+/// How far a form reaches out of pieces that cover its surface. From a point of it, the way out of a mesh around it is
+/// no longer than from the middle to a corner of that.
+DistanceBounds reach_into_holes(const CurvedForm& form, const SolidPieces& pieces, const Progress& progress) {
+  const Vec3 middle = form.middle();
+  DistanceBounds reach = Reach(mesh_of({{{middle, middle, middle}}}), pieces, progress).run();
+  if (reach.lower == 0) reach.farthest = middle;
+  for (const Vec3& p : form.mesh(Curved::Around, kSegments[0]).positions)
+    reach.upper = std::max(reach.upper, (1 + 0x1p-40) * norm(p - middle));
+  return reach;
+}
+
+/// Of a form the surface of which the pieces cover, as a mesh around it with so many segments tells; nothing if a finer
+/// one may tell more.
+std::optional<PieceCover> cover_inside(const CurvedForm& form, const SolidPieces& pieces, std::size_t segments,
+                                       const Progress& progress) {
+  const Covers covers = fill(pieces, form, segments, progress);
+  if (covers == Covers::Yes) return PieceCover{};
+  if (covers == Covers::Unknown && segments != kSegments.back()) return std::nullopt;
+  return PieceCover{covers, {}, reach_into_holes(form, pieces, progress)};
+}
+
 PieceCover cover_curved_by_balls(const CurvedForm& form, std::span<const Ball> balls, const SolidPieces& pieces,
                                  const Progress& progress) {
   PieceCover result{Covers::Unknown, {}, {}};
   for (const std::size_t segments : kSegments) {
     result.outside = uncovered(form.mesh(Curved::Around, segments), balls, progress);
-    if (result.outside.face_count() == 0) return {};
+    if (result.outside.face_count() > 0) continue;
+    if (const auto cover = cover_inside(form, pieces, segments, progress)) return *cover;
   }
   const auto reach = [&](Curved curved) {
     return Reach(uncovered(form.mesh(curved, kFineness), balls, progress), pieces, progress).run();
@@ -388,7 +437,10 @@ PieceCover cover_curved(const CurvedForm& form, const SolidPieces& pieces, const
   PieceCover result{Covers::Unknown, {}, {}};
   for (const std::size_t segments : kSegments) {
     result.outside = uncovered(form.mesh(Curved::Around, segments), pieces, Curved::Within, segments, progress);
-    if (result.outside.face_count() == 0) return {};
+    if (result.outside.face_count() == 0) {
+      if (const auto cover = cover_inside(form, pieces, segments, progress)) return *cover;
+      continue;
+    }
     const TriangleMesh within = form.mesh(Curved::Within, segments);
     if (!pieces.tangled.empty() || uncovered(within, pieces, Curved::Around, segments, progress).face_count() == 0)
       continue;

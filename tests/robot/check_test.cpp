@@ -263,6 +263,36 @@ TEST_F(Check, ACavityIsAHoleUnlessAnotherPieceFillsIt) {
   EXPECT_EQ(checked({cube(0.5)}, {hollow, cube(0.4)}).verdict, CheckVerdict::Leaks);
 }
 
+// Their surfaces are covered; what pieces leave open in their midst was not looked at.
+TEST_F(Check, ACavityIsAHoleInACurvedFormToo) {
+  const Shape hollow = mesh(meshes::together(meshes::box({-2, -2, -2}, {2, 2, 2}),
+                                             meshes::inside_out(meshes::box({-.3, -.3, -.3}, {.3, .3, .3}))));
+  for (const Form& form : {Form(SphereForm{1}), Form(CylinderForm{1, 2}), Form(CapsuleForm{1, 1})}) {
+    const LinkCheck check = checked({shape(form)}, {hollow});
+    EXPECT_EQ(check.verdict, CheckVerdict::Leaks);
+    EXPECT_NEAR(check.sticks_out_at_least, 0.3, 1e-12) << "from the middle to the wall";
+    EXPECT_GE(check.sticks_out_at_most, 0.3);
+    EXPECT_EQ(checked({shape(form)}, {hollow, shape(SphereForm{0.6})}).verdict, CheckVerdict::Covered);
+    EXPECT_EQ(checked({shape(form)}, {hollow, shape(SphereForm{0.4})}).verdict, CheckVerdict::Leaks);
+    EXPECT_EQ(checked({shape(form)}, {hollow, shape(SphereForm{1.9})}).verdict, CheckVerdict::Covered);
+  }
+}
+
+TEST_F(Check, BallsAllOverASphereDoNotFillIt) {
+  std::vector<Shape> balls;
+  for (int i = 0; i < 9; ++i)
+    for (int j = 0; j < 16; ++j) {
+      const double a = std::numbers::pi * i / 8, b = std::numbers::pi * j / 8;
+      balls.push_back(
+          shape(SphereForm{0.5}, translation_by({std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)})));
+    }
+  const LinkCheck check = checked({shape(SphereForm{1})}, balls);
+  EXPECT_EQ(check.verdict, CheckVerdict::Leaks);
+  EXPECT_NEAR(check.sticks_out_at_least, 0.5, 1e-9) << "from the middle to the nearest ball";
+  balls.push_back(shape(SphereForm{0.7}));
+  EXPECT_EQ(checked({shape(SphereForm{1})}, balls).verdict, CheckVerdict::Covered);
+}
+
 /// A prism, 0 <= z <= 1, over an outline that crosses itself: one lobe is inside out, as small as the other or smaller.
 TriangleMesh bow() {
   TriangleMesh mesh =

@@ -35,6 +35,8 @@ class CurvedForm {
     return CurvedForm(Kind::Capsule, radius, length, pose);
   }
 
+  Vec3 middle() const { return pose_.translation; }
+
   /// If it is a sphere, the same one.
   std::optional<Ball> ball() const;
 
@@ -97,9 +99,11 @@ enum class Covers { Yes, No, Unknown };
 
 struct PieceCover {
   /// Exact, but Unknown where a part and a curved piece are close to each other, where tangled pieces share the work,
-  /// and where all that is left lies in planes of the pieces' triangles.
+  /// where all that is left lies in planes of the pieces' triangles, and where it is not found out whether the pieces
+  /// leave a hole in a form.
   Covers covers = Covers::Yes;
-  TriangleMesh outside;  ///< faces that are not covered, at least in part; of a curved part those around it
+  TriangleMesh outside;  ///< faces that are not covered, at least in part; of a curved part those around it; none if
+                         ///< it is not covered inside
   /// Bounds of how far the part reaches out of the union, and a point where; only if not Yes. The upper bound is less
   /// than 2 % more than the lower one, unless that would take too long or a curved form is in the way.
   DistanceBounds reach;
@@ -110,7 +114,8 @@ struct PieceCover {
 ///
 /// A triangle that equals one of the pieces' triangles is covered, and so is one in a single curved piece. Of all
 /// others, verify_cover decides: curved pieces are replaced by meshes within them to prove that a triangle is covered,
-/// and by meshes around them to prove that it is not. Of unions of balls alone, verify_union decides. Throws Cancelled.
+/// and by meshes around them to prove that it is not. Of unions of balls alone, verify_union decides. A form is covered
+/// if a mesh around it is, and its inside: verify_enclosure, or verify_union, looks for holes. Throws Cancelled.
 PieceCover verify_pieces(const TriangleMesh& triangles, const SolidPieces& pieces, const Progress& progress = {});
 PieceCover verify_pieces(const CurvedForm& form, const SolidPieces& pieces, const Progress& progress = {});
 
