@@ -66,9 +66,9 @@ UnionVerification verify_union(std::span<const Ball> balls, TriangleMesh origina
 
 /// How far the union reaches out of `original`: bounds of the greatest distance from a point of the pieces' surfaces to
 /// the triangles. Points inside of the solid of a closed original count as 0, and so do points in its cavities. If the
-/// original is not closed, points of the union's surface count, and none within other pieces; gaps between pieces that
-/// are narrower than about 1e-9 of these are closed. The search ends when the bounds differ by options.relative_gap, or
-/// by 1e-4 of the diagonal. Throws InputError if the original is empty or not
+/// original is not closed, points of the union's surface count, and none within other pieces, unless one of the pieces
+/// is not convex; gaps between pieces that are narrower than about 1e-9 of these are closed. The search ends when the
+/// bounds differ by options.relative_gap, or by 1e-4 of the diagonal. Throws InputError if the original is empty or not
 /// finite; Cancelled.
 DistanceBounds union_reach(std::span<const TriangleMesh> pieces, const TriangleMesh& original,
                            const DistanceOptions& options = {});

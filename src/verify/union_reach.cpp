@@ -243,6 +243,11 @@ DistanceBounds union_reach(std::span<const TriangleMesh> pieces, const TriangleM
   }
   const Target target(original);
   if (target.is_closed_mesh()) return reach_from_solid(pieces, target, largest, options);
+  if (!std::ranges::all_of(pieces, verify::is_about_convex)) {
+    TriangleMesh surfaces;
+    for (const TriangleMesh& piece : pieces) append(surfaces, piece);
+    return distance_bounds(surfaces, original, options);
+  }
   DistanceBounds bounds = distance_bounds(verify::exposed_surface(pieces), original, options);
   Box box;
   for (const TriangleMesh& piece : pieces) box.extend(bounding_box(piece));

@@ -422,6 +422,17 @@ TEST(UnionReach, FromOpenTrianglesIsThatOfTheSurfaceOfTheUnion) {
   EXPECT_LT(found.upper, 2.6);
 }
 
+// The half-spaces of its faces do not make up a ring: what lies in its hole counted as inside of it.
+TEST(UnionReach, FromOpenTrianglesReachesIntoTheHoleOfARing) {
+  const TriangleMesh ring = torus(64, 32);
+  TriangleMesh open = ring;
+  open.triangles.pop_back();
+  const TriangleMesh within = box({-0.01, -0.01, -0.01}, {0.01, 0.01, 0.01});
+  EXPECT_GT(distance_bounds(within, open).lower, 0.5);
+  EXPECT_EQ(union_reach(Pieces{ring, within}, open).lower, distance_bounds(within, open).lower);
+  EXPECT_EQ(union_reach(Pieces{ring, within}, open).upper, distance_bounds(within, open).upper);
+}
+
 TEST(UnionReach, NoPointOfTheSurfaceOfAUnionAroundOpenTrianglesIsFarther) {
   const TriangleMesh open{{{0.2, 0.3, 0.5}, {0.8, 0.3, 0.4}, {0.5, 0.7, 0.6}},
                           {{VertexId{0}, VertexId{1}, VertexId{2}}}};
