@@ -269,10 +269,13 @@ EnclosureReport verify_enclosure(const Surface& inner, const Surface& outer, con
 }
 
 // Inside out, it winds at least once around such points.
-bool winds_negatively(TriangleMesh mesh, const Progress& progress) {
+Answer winds_negatively(TriangleMesh mesh, std::size_t most_steps, const Progress& progress) {
   for (auto& corners : mesh.triangles) std::swap(corners[1], corners[2]);
   const Surface inside_out(mesh, "given", Turning::Never), nothing;
-  return !verify_enclosure(inside_out, nothing, {.max_offenders = 0, .progress = progress}).encloses;
+  const EnclosureReport report = verify_enclosure(
+      inside_out, nothing, {.max_offenders = 0, .most_outside = 0, .progress = progress, .max_steps = most_steps});
+  const Answer is_empty = answer_of(report);
+  return is_empty == Answer::Yes ? Answer::No : is_empty == Answer::No ? Answer::Yes : Answer::Undecided;
 }
 
 std::string undecided(std::size_t faces) {

@@ -464,7 +464,9 @@ std::vector<Ball> only_balls(const SolidPieces& pieces) {
   return has_others ? std::vector<Ball>() : balls;
 }
 
-bool is_tangled(const TriangleMesh& mesh, const Progress& progress) { return verify::winds_negatively(mesh, progress); }
+bool is_tangled(const TriangleMesh& mesh, const Progress& progress) {
+  return verify::winds_negatively(mesh, verify::most_steps({}, mesh.face_count()), progress) != Answer::No;
+}
 
 PieceCover verify_pieces(const TriangleMesh& triangles, const SolidPieces& pieces, const Progress& progress) {
   return cover_flat(triangles, pieces, progress);

@@ -56,8 +56,9 @@ Holes find_holes(const Surface& inner, const Surface& outer, const OpenCells& op
 std::vector<FaceId> faces_beside_the_solid(const Surface& surface, const TriangleMesh& mesh, const FacePairs& pairs,
                                            const Progress& progress);
 
-/// Whether a closed mesh winds around some point a negative number of times, as in a lobe that is inside out. Exact.
-bool winds_negatively(TriangleMesh mesh, const Progress& progress);
+/// Whether a closed mesh winds around some point a negative number of times, as in a lobe that is inside out. Exact, or
+/// undecided where that would take more steps (EnclosureOptions::max_steps).
+Answer winds_negatively(TriangleMesh mesh, std::size_t most_steps, const Progress& progress);
 
 /// Whether the mesh is a surface in one piece, with two faces along every edge and with an area of every face, that
 /// looks outwards. Without self-intersections all of its faces then bound the solid. Much faster to find out, and in

@@ -152,7 +152,7 @@ UnionVerification verify_union(std::span<const TriangleMesh> pieces, TriangleMes
   if (!prepared.closed) found.notes.emplace_back(verify::kNotClosed);
   verify::take_facts(prepared, found);
   if (prepared.closed) found.original_volume = verify::solid_volume(original, meter);
-  const verify::Pieces sound = verify::prepare_pieces(pieces, meter.part(0, 0.1));
+  const verify::Pieces sound = verify::prepare_pieces(pieces, options, meter.part(0, 0.1));
   found.turned_pieces = sound.turned;
   UnionJudge judge(sound, original, options, meter, found);
   if (prepared.closed && options.solid_only) {

@@ -90,7 +90,8 @@ std::vector<const Kernel*> Pieces::near(const Box& box, std::optional<std::size_
   return result;
 }
 
-Pieces prepare_pieces(std::span<const TriangleMesh> pieces, const Progress& progress) {
+Pieces prepare_pieces(std::span<const TriangleMesh> pieces, const VerificationOptions& options,
+                      const Progress& progress) {
   if (pieces.empty()) throw InputError(Defect::EmptyMesh, "there is no piece: a union needs at least one");
   ProgressCounter counter(progress, "verify", pieces.size());
   Pieces result;
@@ -98,7 +99,13 @@ Pieces prepare_pieces(std::span<const TriangleMesh> pieces, const Progress& prog
     counter.next();
     const TriangleMesh& mesh = result.meshes.emplace_back(closed_piece(pieces[i], i, result.turned));
     result.kernels.emplace_back(mesh);
-    if (!result.kernels.back().is_solid() && winds_negatively(mesh, progress))
+    if (result.kernels.back().is_solid()) continue;
+    const Answer is_tangled = winds_negatively(mesh, most_steps(options, mesh.face_count()), progress);
+    if (is_tangled == Answer::Undecided)
+      refuse(i, Defect::InconsistentOrientation,
+             "it intersects itself so often that the search for parts that are inside out was ended; allow more steps, "
+             "or take its convex hull, or `prohull build`, instead");
+    if (is_tangled == Answer::Yes)
       refuse(i, Defect::InconsistentOrientation,
              "it intersects itself and is inside out in parts, so that it bounds no solid; take its convex hull, or "
              "`prohull build`, instead");

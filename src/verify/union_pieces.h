@@ -7,6 +7,7 @@
 #include "geometry/bvh.h"
 #include "prohull/progress.h"
 #include "prohull/triangle_mesh.h"
+#include "prohull/verification.h"
 
 namespace prohull::verify {
 
@@ -52,8 +53,10 @@ struct Pieces {
 };
 
 /// Throws InputError, with the number of the piece from 1 on, if there is none, or if one is empty, not finite, not
-/// closed, or winds around some point a negative number of times. Cancelled.
-Pieces prepare_pieces(std::span<const TriangleMesh> pieces, const Progress& progress);
+/// closed, or winds around some point a negative number of times, or if most_steps(options, ...) do not tell.
+/// Cancelled.
+Pieces prepare_pieces(std::span<const TriangleMesh> pieces, const VerificationOptions& options,
+                      const Progress& progress);
 
 /// The triangles that do not lie in one kernel; all others are covered. Exact.
 std::vector<FaceId> faces_beyond_kernels(const TriangleMesh& mesh, const Pieces& pieces);

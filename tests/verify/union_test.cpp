@@ -396,6 +396,25 @@ void expect_bounds(const DistanceBounds& found, double expected) {
   EXPECT_LE(found.upper, found.lower * 1.011 + 1e-3);
 }
 
+// How often a piece winds around its parts was asked without end.
+TEST(UnionOfPieces, RefusesAPieceThatTakesTooManySteps) {
+  TriangleMesh piece;
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> anywhere(-1, 1);
+  const auto point = [&] { return Vec3{anywhere(random), anywhere(random), anywhere(random)}; };
+  for (int i = 0; i < 20; ++i) {
+    const Vec3 a = point(), b = point(), c = point(), d = point();
+    piece = together(piece, dot(cross(b - a, c - a), d - a) < 0 ? tetrahedron(a, b, c, d) : tetrahedron(a, c, b, d));
+  }
+  const auto verified = [&](std::size_t steps) {
+    return message_of([&] {
+      verify_union(Pieces{piece}, make({{0, 0, 0}, {.01, 0, 0}, {0, .01, 0}}, {{0, 1, 2}}), {.max_steps = steps});
+    });
+  };
+  EXPECT_NE(verified(1000).find("piece 1: it intersects itself so often"), std::string::npos) << verified(1000);
+  EXPECT_EQ(verified(0), "no error");
+}
+
 TEST(UnionReach, IsMeasuredOutsideOfTheSolid) {
   const TriangleMesh original = box({0, 0, 0}, {1, 1, 1});
   expect_bounds(union_reach(Pieces{box({-0.1, -0.1, -0.1}, {1.2, 1.2, 1.2})}, original), 0.2 * std::sqrt(3));

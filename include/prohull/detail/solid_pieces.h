@@ -92,7 +92,8 @@ struct SolidPieces {
 /// If the pieces are balls and nothing else: these.
 std::vector<Ball> only_balls(const SolidPieces& pieces);
 
-/// Whether a closed mesh winds around some point a negative number of times, as in a lobe that is inside out. Exact.
+/// Whether a closed mesh winds around some point a negative number of times, as in a lobe that is inside out; or
+/// intersects itself so often that this takes too long to find out. No is exact.
 bool is_tangled(const TriangleMesh& mesh, const Progress& progress = {});
 
 enum class Covers { Yes, No, Unknown };
