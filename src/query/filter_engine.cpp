@@ -58,6 +58,7 @@ struct FilterData {
         inner(inner_hull.level(kFilterFaces)),
         sheets(mesh, sheets_without_thickness(VoidComplex(outer_hull))),
         may_be_covered(met_by_others(inner)) {
+    const VoidComplex certified(inner_hull);  // throws if the levels do not enclose each other
     for (const ProgressiveHull* hull : {&outer_hull, &inner_hull})
       for (const Vec3& p : hull->positions()) frame.extend(p);
   }

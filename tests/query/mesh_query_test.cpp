@@ -13,6 +13,7 @@
 #include "effort.h"
 #include "meshes.h"
 #include "prohull/error.h"
+#include "prohull/hull_builder.h"
 #include "prohull/sample.h"
 #include "query/awkward_segments.h"
 #include "query/brute_force.h"
@@ -97,6 +98,22 @@ TEST(QueryIndex, RefusesWhatItCannotAnswer) {
   mesh.positions[VertexId{2}].y = std::nan("");
   EXPECT_THROW(QueryIndex{mesh}, InputError);
   EXPECT_THROW(QueryIndex(octahedron(), Engine::Filter), InputError);
+}
+
+// Only the outer levels were looked at.
+TEST(QueryIndex, RefusesHullsThatAreNoHulls) {
+  const TriangleMesh mesh = sphere(3);
+  const auto hull_of = [&](HullSide side) { return build_hull(mesh, {.target_faces = 100, .side = side}).hull; };
+  const ProgressiveHull outer = hull_of(HullSide::Outer), inner = hull_of(HullSide::Inner);
+  const auto with_a_vertex_moved = [](const ProgressiveHull& hull, double factor) {
+    auto positions = hull.positions();
+    const VertexId v = hull.made_vertex(100);
+    positions[v] = positions[v] * factor;
+    return ProgressiveHull(hull.side(), hull.original_vertex_count(), positions, hull.base_corners(), hull.splits());
+  };
+  EXPECT_NO_THROW(QueryIndex(outer, inner, Engine::Filter));
+  EXPECT_THROW(QueryIndex(with_a_vertex_moved(outer, 0.2), inner, Engine::Filter), InputError);
+  EXPECT_THROW(QueryIndex(outer, with_a_vertex_moved(inner, 3), Engine::Filter), InputError);
 }
 
 TEST(Hits, AreTheSameForAnyNumberOfThreads) {
