@@ -10,6 +10,7 @@
 #include "construct/closed_manifold.h"
 #include "construct/progressive/rounds.h"
 #include "construct/turned.h"
+#include "mesh/face_tolerances.h"
 #include "parallel/arena.h"
 #include "prohull/error.h"
 
@@ -41,11 +42,7 @@ void check_tolerances(const TriangleMesh& mesh, const HullOptions& options) {
   if (options.mirror)
     throw InputError(Defect::InvalidOption,
                      "a symmetric hull has no tolerances for single faces: ask for one of the two");
-  if (tolerances.size() != mesh.face_count())
-    throw InputError(Defect::InvalidOption, fmt::format("{} tolerances for {} faces: there must be one for each face",
-                                                        tolerances.size(), mesh.face_count()));
-  if (!std::ranges::all_of(tolerances, [](double tolerance) { return tolerance >= 0; }))
-    throw InputError(Defect::InvalidOption, "tolerances must be at least 0; 0 keeps a face, infinity allows anything");
+  require_tolerances(tolerances, mesh.face_count());
   if (!options.deviations.empty() && options.deviations.size() != mesh.positions.size())
     throw InputError(Defect::InvalidOption,
                      fmt::format("{} deviations for {} vertices: there must be one for each vertex",

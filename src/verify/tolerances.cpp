@@ -1,6 +1,5 @@
 #include "prohull/tolerances.h"
 
-#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -11,8 +10,8 @@
 #include <vector>
 
 #include "geometry/triangle_key.h"
+#include "mesh/face_tolerances.h"
 #include "prohull/detail/progress_meter.h"
-#include "prohull/error.h"
 #include "verify/nearest_face.h"
 
 namespace prohull {
@@ -23,9 +22,7 @@ using verify::NearestFace;
 void check(const TriangleMesh& hull, const TriangleMesh& mesh, const PerFace<double>& tolerances) {
   verify::require_distances(hull);
   verify::require_distances(mesh);
-  if (tolerances.size() != mesh.face_count())
-    throw InputError(Defect::InvalidOption, fmt::format("{} tolerances for {} faces: there must be one for each face",
-                                                        tolerances.size(), mesh.face_count()));
+  require_tolerances(tolerances, mesh.face_count());
 }
 
 std::size_t count_missing(const TriangleMesh& hull, const TriangleMesh& mesh, const PerFace<double>& tolerances) {

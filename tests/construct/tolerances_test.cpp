@@ -247,6 +247,13 @@ TEST(VerifyTolerances, FindsWhatIsMissingAndWhatIsFar) {
 }
 
 // A face whose corners are near, but whose middle is far.
+// They counted as not asked for, so that anything held.
+TEST(VerifyTolerances, RefusesThoseThatAreNoNumbersOfAtLeastZero) {
+  const TriangleMesh near = box({0, 0, 0}, {1, 1, 1}), far = box({9, 9, 9}, {10, 10, 10});
+  for (const double tolerance : {-1.0, std::nan("")})
+    EXPECT_THROW(verify_tolerances(far, near, PerFace<double>(near.face_count(), tolerance)), InputError);
+}
+
 TEST(VerifyTolerances, LooksBetweenTheCorners) {
   const TriangleMesh flat = make({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}, {{0, 1, 2}});
   const TriangleMesh tent = make({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.6, 0.6, 0.5}}, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
