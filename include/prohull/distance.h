@@ -44,8 +44,11 @@ struct HullBounds {
   bool any_of_volume() const { return HullBounds{.max_distance = max_distance} != *this; }
   bool operator==(const HullBounds&) const = default;
 
+  /// Throws InputError if a bound is no number of at least 0.
+  void require_usable() const;
+
   /// The greatest of the three quotients of what a hull of `hull_volume` has and its bound: at most 1 if it keeps all
-  /// bounds. The distance from `original` is proven (distance_bounds). Throws as distance_bounds does.
+  /// bounds. The distance from `original` is proven (distance_bounds). Throws as distance_bounds and require_usable do.
   double excess(const TriangleMesh& hull, double hull_volume, const TriangleMesh& original, double volume,
                 const Progress& progress = {}) const;
   /// Of the solid_volume of the hull (enclosure.h); of its signed volume where that would take too long.

@@ -14,11 +14,6 @@
 namespace prohull {
 namespace {
 
-void require_usable_bounds(const HullBounds& b) {
-  if (!(b.max_distance >= 0 && b.max_void_ratio >= 0 && b.max_added_volume >= 0))
-    throw InputError(Defect::InvalidOption, "the largest distance, void and added volume must be at least 0");
-}
-
 void require_usable_lengths(const EnclosingOptions& options) {
   const auto refuse = [](const std::string& what) { throw InputError(Defect::InvalidOption, what); };
   constexpr double kRoom = 64;  // for the corners of hulls, in paddings
@@ -71,7 +66,7 @@ void require_usable(const TriangleMesh& triangles, std::span<const std::size_t> 
   if (options.tight && options.levels)
     throw InputError(Defect::InvalidOption, "a tight hull has no levels: ask for one of the two");
   require_usable_size(finite_bounding_box(triangles));
-  require_usable_bounds(options.bounds);
+  options.bounds.require_usable();
   require_usable_lengths(options);
   require_usable_tolerances(triangles, options);
   require_usable_mirror(options);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "prohull/detail/progress_meter.h"
 #include "prohull/enclosure.h"
+#include "prohull/error.h"
 #include "verify/nearest_face.h"
 
 namespace prohull {
@@ -65,14 +67,23 @@ DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to,
   return verify::proven(search.run([&] { counter.next(); }), faces, rounding);
 }
 
+void HullBounds::require_usable() const {
+  if (!(max_distance >= 0 && max_void_ratio >= 0 && max_added_volume >= 0))
+    throw InputError(Defect::InvalidOption, "the largest distance, void and added volume must be at least 0");
+}
+
 double HullBounds::excess(const TriangleMesh& hull, double hull_volume, const TriangleMesh& original, double volume,
                           const Progress& progress) const {
+  require_usable();
   const double added = std::abs(hull_volume - volume);
-  // A bound of 0 is kept by nothing but 0.
+  // A bound of 0 is kept by nothing but 0. Values that are not known keep none, nor does anything a share of a volume
+  // that is not positive.
   const auto quotient = [](double value, double bound) {
-    return value > bound ? value / bound : bound > 0 ? value / bound : 0;
+    if (value <= bound) return bound > 0 ? value / bound : 0;
+    return value > bound && bound > 0 ? value / bound : std::numeric_limits<double>::infinity();
   };
-  double most = quotient(added, max_added_volume);
+  double most = 0;
+  if (std::isfinite(max_added_volume)) most = quotient(added, max_added_volume);
   if (std::isfinite(max_void_ratio)) most = std::max(most, quotient(added, max_void_ratio * volume));
   if (std::isfinite(max_distance))
     most = std::max(

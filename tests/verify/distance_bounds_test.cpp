@@ -167,6 +167,19 @@ TEST(FacesWithin, IsACoarserLevelForAGreaterDistance) {
   EXPECT_EQ(faces_within(hull, is_within(0)), mesh.face_count());
 }
 
+TEST(HullBounds, OfWhatIsNotKnownDoNotHold) {
+  const TriangleMesh hull = box({0, 0, 0}, {2, 2, 2}), mesh = box({0, 0, 0}, {1, 1, 1});
+  const double nan = std::nan("");
+  for (const double volume : {nan, -1.0, 0.0})
+    EXPECT_FALSE((HullBounds{.max_void_ratio = 9}.hold(hull, mesh, volume))) << volume;
+  EXPECT_FALSE((HullBounds{.max_added_volume = 9}.hold(hull, mesh, nan)));
+  EXPECT_TRUE((HullBounds{.max_distance = 2}.hold(hull, mesh, nan)));
+  for (const double bound : {nan, -1.0})
+    for (const HullBounds& bounds : {HullBounds{.max_distance = bound}, HullBounds{.max_void_ratio = bound},
+                                     HullBounds{.max_added_volume = bound}})
+      EXPECT_THROW(bounds.hold(hull, mesh, 1), InputError) << bound;
+}
+
 TEST(HullBounds, HoldEachByItself) {
   const TriangleMesh inner = box({0, 0, 0}, {4, 4, 4}), outer = box({-1, 0, 0}, {5, 4, 4});  // 64 and 96
   const auto hold = [&](const HullBounds& bounds) { return bounds.hold(outer, inner, 64); };
