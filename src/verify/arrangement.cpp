@@ -15,6 +15,7 @@
 #include "geometry/triangle_predicates.h"
 #include "geometry/vector_of.h"
 #include "verify/cell.h"
+#include "verify/random_number.h"
 
 // Why windings follow from segments. Move t outwards by a distance smaller than all others: a plane that meets no
 // corner of any face. It meets a closed surface in closed lines, around which the winding numbers of the surface are
@@ -624,7 +625,7 @@ class Segments {
   /// A point of the piece where nothing happens, and how many events come before it.
   std::pair<PointId, std::size_t> quiet_point(PieceId i) {
     for (;;) {
-      const double fraction = 0x1p-16 * std::uniform_int_distribution<int>(1 << 14, 3 << 14)(random_);
+      const double fraction = 0x1p-16 * random_number(random_, 1 << 14, 3 << 14);
       const PointId p = add_point(Between{pieces_[i].begin, pieces_[i].end, fraction});
       points_[p].lines.push_back(pieces_[i].line);
       std::size_t before = 0;

@@ -6,6 +6,7 @@
 
 #include "geometry/triangle_predicates.h"
 #include "geometry/vector_of.h"
+#include "verify/random_number.h"
 
 namespace prohull::verify {
 namespace {
@@ -24,11 +25,10 @@ Field side_determinant(const Triangle& h, const std::array<Field, 3>& p) {
 }
 
 std::array<Number, 3> random_point(const Triangle& t, int axis, const Cell& cell, std::mt19937& random) {
-  std::uniform_int_distribution<int> weights(1 << 8, 1 << 16);
   Number total(0);
   PlanePoint sum{0, 0};
   for (const PlanePoint& corner : cell) {
-    const Number weight(weights(random));
+    const Number weight(random_number(random, 1 << 8, 1 << 16));
     sum.u += weight * corner.u;
     sum.v += weight * corner.v;
     total += weight;

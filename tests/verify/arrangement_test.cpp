@@ -12,6 +12,7 @@
 #include "random.h"
 #include "verify/oracle.h"
 #include "verify/random_chains.h"
+#include "verify/random_number.h"
 #include "verify/solids.h"
 
 namespace prohull {
@@ -137,6 +138,13 @@ TriangleMesh crossed_plate(int boxes) {
 }
 
 // Whole lines would divide a face of the plate into hundreds of thousands of cells.
+// How many steps a search takes depends on them.
+TEST(RandomNumber, IsTheSameWithAnyStandardLibrary) {
+  std::mt19937 random;
+  for (const int number : {53441, 9100, 59387}) EXPECT_EQ(verify::random_number(random, 1 << 8, 1 << 16), number);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(verify::random_number(random, i, i), i);
+}
+
 TEST(HullsThatOverlapOften, TakeWorkThatGrowsAsContactsDo) {
   for (const int boxes : {10, 100, 400}) {
     const TriangleMesh mesh = crossed_plate(boxes);
