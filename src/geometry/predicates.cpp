@@ -1,9 +1,8 @@
 #include "geometry/predicates.h"
 
-#include <optional>
-
 #include "geometry/exact_number.h"
 #include "geometry/interval.h"
+#include "geometry/rounded_turn.h"
 #include "geometry/vector_of.h"
 
 namespace prohull {
@@ -12,16 +11,6 @@ namespace {
 template <class Field>
 Field side_determinant(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
   return dot(between<Field>(a, b), cross(between<Field>(a, c), between<Field>(a, p)));
-}
-
-/// Each difference, product and sum is rounded by at most 2^-53 of itself, so that 4 times as much of the sizes of both
-/// products is enough (Shewchuk 1997). The rest is more than what underflows; what overflows is not certain.
-std::optional<int> filtered_turn(double au, double av, double bu, double bv, double cu, double cv) {
-  const double left = (bu - au) * (cv - av), right = (bv - av) * (cu - au), determinant = left - right;
-  const double error = 0x1p-51 * (std::abs(left) + std::abs(right)) + 0x1p-1000;
-  if (determinant > error) return 1;
-  if (-determinant > error) return -1;
-  return std::nullopt;
 }
 
 template <class Field>
@@ -39,7 +28,7 @@ Side exact_side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
 
 int turn(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  if (const auto sign = filtered_turn(a[u], a[v], b[u], b[v], c[u], c[v])) return *sign;
+  if (const auto sign = certain_turn(axis, a, b, c)) return *sign;
   if (const auto sign = certain_sign(turn_determinant<Interval>(a[u], a[v], b[u], b[v], c[u], c[v]))) return *sign;
   return sign(turn_determinant<ExactNumber>(a[u], a[v], b[u], b[v], c[u], c[v]));
 }

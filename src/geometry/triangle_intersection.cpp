@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
+#include "geometry/rounded_turn.h"
 #include "geometry/segment_contact.h"
 #include "geometry/triangle_predicates.h"
 
@@ -43,34 +43,18 @@ bool edges_meet(const Corners& s, int first, const Corners& t, int axis) {
   return first == 0 && (segment_meets(t, axis, s[0], s[1]) || segment_meets(t, axis, s[0], s[2]));
 }
 
-/// The sign of the area of abc seen along `axis` where it is certain, else 0: Shewchuk's filter for orient2d.
-int certain_turn(int axis, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const int u = axis == 2 ? 0 : axis + 1, v = axis == 0 ? 2 : axis - 1;
-  const double left = (a[u] - c[u]) * (b[v] - c[v]), right = (a[v] - c[v]) * (b[u] - c[u]);
-  constexpr double kBound = 0x1.8p-52;  // (3 + 16 eps) eps, eps = 2^-53, rounded up
-  const double magnitude = std::abs(left) + std::abs(right);
-  if (!(magnitude > 0x1p-900 && magnitude < 0x1p1000)) return 0;
-  const double bound = kBound * magnitude;
-  return left - right > bound ? 1 : right - left > bound ? -1 : 0;
-}
-
 /// Whether the line of an edge of t, seen along `axis`, has t on one side and all corners of s that t does not share
 /// strictly on the other: then s and t have nothing in common but what they share. May say no for want of certainty.
 bool projections_certainly_apart(const Corners& t, const Corners& s, int axis) {
-  const int orientation = certain_turn(axis, t[0], t[1], t[2]);
-  if (orientation == 0) return false;
+  const auto orientation = certain_turn(axis, t[0], t[1], t[2]);
+  if (!orientation) return false;
   for (int i = 0; i < 3; ++i) {
     const Vec3 &a = t[i], &b = t[i == 2 ? 0 : i + 1];
     if (std::ranges::all_of(
-            s, [&](const Vec3& p) { return p == a || p == b || certain_turn(axis, a, b, p) == -orientation; }))
+            s, [&](const Vec3& p) { return p == a || p == b || certain_turn(axis, a, b, p) == -*orientation; }))
       return true;
   }
   return false;
-}
-
-int dominant_axis(const Vec3& n) {
-  const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
-  return z >= x && z >= y ? 2 : y >= x ? 1 : 0;
 }
 
 }  // namespace

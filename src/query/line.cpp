@@ -1,22 +1,19 @@
 #include "query/line.h"
 
 #include "geometry/double_double.h"
+#include "geometry/rounded_turn.h"
 #include "geometry/triangle_predicates.h"
 #include "query/exact_line.h"
 
 namespace prohull {
 namespace {
 
-/// The sign of component `axis` of (b - a) cross (d - c). Differences and products have relative errors of eps, the
-/// last difference another: together at most 4 eps of both products.
+/// The sign of component `axis` of (b - a) cross (d - c).
 int minor_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, int axis) {
   const int i = axis == 2 ? 0 : axis + 1, j = axis == 0 ? 2 : axis - 1;
   const double ui = b[i] - a[i], uj = b[j] - a[j], vi = d[i] - c[i], vj = d[j] - c[j];
   if ((ui == 0 || vj == 0) && (uj == 0 || vi == 0)) return 0;
-  const double first = ui * vj, second = uj * vi, value = first - second,
-               error = 8 * line_filter::kEpsilon * (std::abs(first) + std::abs(second)) + 0x1p-1000;
-  if (value > error) return 1;
-  if (value < -error) return -1;
+  if (const auto sign = certain_minor_sign(ui, uj, vi, vj)) return *sign;
   return exact_minor_sign(a, b, c, d, axis);
 }
 

@@ -1,12 +1,12 @@
 #include "verify/disk_stars.h"
 
 #include <array>
-#include <cmath>
 #include <numeric>
 #include <span>
 #include <vector>
 
 #include "geometry/predicates.h"
+#include "geometry/rounded_turn.h"
 
 namespace prohull::verify {
 namespace {
@@ -31,8 +31,7 @@ int axis_of(const TriangleMesh& mesh, VertexId v, std::span<const Opposite> link
   const Vec3& p = mesh.positions[v];
   Vec3 normal;
   for (const auto& [from, to] : link) normal += cross(mesh.positions[from] - p, mesh.positions[to] - p);
-  const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
-  return z >= x && z >= y ? 2 : y >= x ? 1 : 0;
+  return dominant_axis(normal);
 }
 
 /// Exact. The sides turn the same way around the vertex, each by less than half a turn; how often they pass a ray says

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "geometry/orientation.h"
+#include "geometry/rounded_turn.h"
 #include "random.h"
 
 namespace prohull {
@@ -72,6 +73,29 @@ TEST(VolumeSign, OfATetrahedronIsTheSideOfItsTip) {
         const std::array faces{Triangle{a, c, b}, Triangle{a, b, tip}, Triangle{b, c, tip}, Triangle{c, a, tip}};
         ASSERT_EQ(volume_sign(faces), static_cast<int>(exact_side(a, b, c, tip))) << scale;
       }
+}
+
+// Of points that are nearly on a line, next to each other and of any size.
+TEST(CertainTurn, IsTheTurnOrNothing) {
+  std::mt19937 random(test_seed());
+  std::uniform_int_distribution<int> steps(-20, 20);
+  int certain = 0, uncertain = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double size = std::ldexp(1.0, steps(random) * 45);
+    const auto point = [&](double at) {
+      return Vec3{at, at, at} * size + Vec3{double(steps(random)), double(steps(random)), 0} * (0x1p-53 * size);
+    };
+    const Vec3 a = point(0.5), b = point(0.75), c = point(1.25);
+    for (const int axis : {0, 1, 2}) {
+      const auto found = certain_turn(axis, a, b, c);
+      ++(found ? certain : uncertain);
+      const int exact = turn(axis, a, b, c);
+      EXPECT_EQ(found.value_or(exact), exact);
+      EXPECT_EQ(certain_turn(axis, a, b, b).value_or(0), 0);
+    }
+  }
+  EXPECT_GT(certain, 0);
+  EXPECT_GT(uncertain, 0);
 }
 
 TEST(Turn, IsCounterClockwiseSeenFromTheAxis) {
