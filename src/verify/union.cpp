@@ -85,6 +85,21 @@ class UnionJudge {
     if (report.faces_undecided > 0) refuse(verify::undecided(report.faces_undecided));
   }
 
+  /// Where a sum of windings is at least 1, one of the pieces winds that often. Where it is less, one may be inside
+  /// out.
+  void doubt() {
+    if (found_.covers_triangles == Answer::No) found_.covers_triangles = Answer::Undecided;
+    if (found_.encloses_solid == Answer::No) {
+      found_.encloses_solid = Answer::Undecided;
+      found_.inside_undecided = true;
+    }
+    const std::size_t in_doubt = std::exchange(found_.faces_outside, 0) + std::exchange(found_.holes, 0);
+    if (in_doubt == 0) return;
+    found_.worst.clear();
+    found_.faces_undecided += in_doubt;
+    found_.why_not = verify::undecided(found_.faces_undecided);
+  }
+
   void measure() {
     constexpr std::size_t kMostFaces = 50'000;  // the time grows with the square
     if (pieces_.meshes.size() > 1 && together_.face_count() > kMostFaces) {
@@ -164,6 +179,7 @@ UnionVerification verify_union(std::span<const TriangleMesh> pieces, TriangleMes
     else if (prepared.closed)
       found.encloses_solid = Answer::Undecided;  // triangles that stick out may bound no solid
   }
+  if (!sound.are_sure) judge.doubt();
   verify::refuse_non_finite_faces(prepared.non_finite_faces, options, found.certified, found.why_not);
   judge.measure();
   meter.at(1);

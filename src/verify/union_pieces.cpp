@@ -101,10 +101,7 @@ Pieces prepare_pieces(std::span<const TriangleMesh> pieces, const VerificationOp
     result.kernels.emplace_back(mesh);
     if (result.kernels.back().is_solid()) continue;
     const Answer is_tangled = winds_negatively(mesh, most_steps(options, mesh.face_count()), progress);
-    if (is_tangled == Answer::Undecided)
-      refuse(i, Defect::InconsistentOrientation,
-             "it intersects itself so often that the search for parts that are inside out was ended; allow more steps, "
-             "or take its convex hull, or `prohull build`, instead");
+    result.are_sure &= is_tangled != Answer::Undecided;
     if (is_tangled == Answer::Yes)
       refuse(i, Defect::InconsistentOrientation,
              "it intersects itself and is inside out in parts, so that it bounds no solid; take its convex hull, or "

@@ -45,6 +45,7 @@ struct Pieces {
   std::vector<Kernel> kernels;       ///< of each
   Bvh bvh;                           ///< of the kernels' boxes
   std::size_t turned = 0;            ///< how many looked inwards
+  bool are_sure = true;              ///< else it is not known that none winds a negative number of times
 
   /// All as one mesh: the union is where it winds at least once.
   TriangleMesh together() const;
@@ -53,8 +54,8 @@ struct Pieces {
 };
 
 /// Throws InputError, with the number of the piece from 1 on, if there is none, or if one is empty, not finite, not
-/// closed, or winds around some point a negative number of times, or if most_steps(options, ...) do not tell.
-/// Cancelled.
+/// closed, or winds around some point a negative number of times. Whether it does is not known where that would take
+/// more than most_steps(options, ...). Cancelled.
 Pieces prepare_pieces(std::span<const TriangleMesh> pieces, const VerificationOptions& options,
                       const Progress& progress);
 
