@@ -18,8 +18,8 @@ struct ToleranceReport {
 /// farther from the hull than the tolerance of the face; a face of tolerance 0 must be a face of the hull with the same
 /// coordinates, in the same orientation. Guaranteed: if `holds`, that is proven. Shares nothing with the construction.
 ///
-/// Throws InputError if a mesh has no faces or is not finite, or if there is not one tolerance for each face of `mesh`, of at
-/// least 0; Cancelled. The stage of progress is "verify".
+/// Throws InputError if a mesh has no faces or is not finite, or if there is not one tolerance for each face of `mesh`,
+/// of at least 0; Cancelled. The stage of progress is "verify".
 ToleranceReport verify_tolerances(const TriangleMesh& hull, const TriangleMesh& mesh, const PerFace<double>& tolerances,
                                   const Progress& progress = {});
 
