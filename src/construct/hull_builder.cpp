@@ -10,7 +10,7 @@
 #include "construct/closed_manifold.h"
 #include "construct/progressive/rounds.h"
 #include "construct/turned.h"
-#include "mesh/face_tolerances.h"
+#include "geometry/face_tolerances.h"
 #include "parallel/arena.h"
 #include "prohull/error.h"
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/face_tolerances.h"
 #include "geometry/triangle_key.h"
-#include "mesh/face_tolerances.h"
 #include "prohull/detail/progress_meter.h"
 #include "verify/nearest_face.h"
 

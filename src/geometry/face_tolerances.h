@@ -6,12 +6,12 @@
 #include <cstddef>
 
 #include "prohull/error.h"
-#include "prohull/triangle_mesh.h"
 
 namespace prohull {
 
 /// Throws InputError unless there is one tolerance for each face, of at least 0.
-inline void require_tolerances(const PerFace<double>& tolerances, std::size_t faces) {
+template <class Tolerances>
+void require_tolerances(const Tolerances& tolerances, std::size_t faces) {
   if (tolerances.size() != faces)
     throw InputError(Defect::InvalidOption, fmt::format("{} tolerances for {} faces: there must be one for each face",
                                                         tolerances.size(), faces));
