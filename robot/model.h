@@ -22,24 +22,32 @@ struct MeshFile {
   std::filesystem::path path = {};  ///< where it is; empty if it was not found
   std::string why_not = {};         ///< if it was not found: where it was looked for
   Vec3 scale{1, 1, 1};              ///< of the coordinates in the mesh file
+
+  /// Whether files say the same of two meshes.
+  friend bool operator==(const MeshFile& a, const MeshFile& b) { return a.uri == b.uri && a.scale == b.scale; }
 };
 struct BoxForm {
   Vec3 size;  ///< full lengths of the sides
+  bool operator==(const BoxForm&) const = default;
 };
 struct SphereForm {
   double radius = 0;
+  bool operator==(const SphereForm&) const = default;
 };
 /// About the z axis; the origin is its middle.
 struct CylinderForm {
   double radius = 0, length = 0;
+  bool operator==(const CylinderForm&) const = default;
 };
 /// About the z axis; the origin is its middle. `length` is that of the cylinder between the two half spheres.
 struct CapsuleForm {
   double radius = 0, length = 0;
+  bool operator==(const CapsuleForm&) const = default;
 };
 /// What is not read here, such as a plane or a height field.
 struct OtherForm {
   std::string what;  ///< "heightmap"
+  bool operator==(const OtherForm&) const = default;
 };
 using Form = std::variant<MeshFile, BoxForm, SphereForm, CylinderForm, CapsuleForm, OtherForm>;
 

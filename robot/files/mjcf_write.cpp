@@ -95,19 +95,19 @@ class MjcfWriter {
   NewGeom hull_geom(const std::string& hull, const NewCollision& collision, const MjcfBody& body,
                     const std::vector<MjcfElement>& from, const MjcfElement* like) {
     NewGeom geom{nullptr, body.element, body.child_class, {}, ""};
-    std::vector<MjcfAttribute> shape{{"type", "mesh"}, {"mesh", add_mesh(hull, body)}};
-    if (collision.same_origin_as) {
-      const MjcfElement& same = from.at(*collision.same_origin_as);
-      geom.beside = same.element, geom.home = same.home;
-      const auto& known = shapes(file_.robot.links.at(collision.link), collision.from);
-      append(shape, pose_attributes(same, known.at(*collision.same_origin_as).origin));
+    const MjcfElement* const same = collision.same_origin_as ? &from.at(*collision.same_origin_as) : nullptr;
+    std::vector<MjcfAttribute> shape{{"type", "mesh"}, {"mesh", add_mesh(hull, body, same)}};
+    if (same) {
+      geom.beside = same->element, geom.home = same->home;
+      append(shape, pose_attributes(*same));
     }
     geom.attributes = with_shape(like, geom, std::move(shape), body);
     return geom;
   }
 
   NewGeom ball_geom(const Ball& ball, const MjcfBody& body, const MjcfElement* like) {
-    refuse_fromto();
+    refuse_in_main("fromto");
+    refuse_in_main("mesh");
     NewGeom geom{nullptr, body.element, body.child_class, {}, ""};
     std::vector<MjcfAttribute> shape{{"type", "sphere"}, {"size", fmt::format("{}", ball.radius)}};
     append(shape, mjcf_attributes_of(Pose{.translation = ball.center}));
@@ -120,6 +120,7 @@ class MjcfWriter {
     std::vector<MjcfAttribute> shape;
     for (const std::string_view key : kShapeAttributes)
       if (const std::string* value = word_of(visual, key)) shape.emplace_back(key, *value);
+    if (!says(shape, "type")) shape.emplace_back("type", "sphere");
     geom.attributes = with_shape(like, geom, std::move(shape), body);
     return geom;
   }
@@ -128,12 +129,9 @@ class MjcfWriter {
     std::ranges::move(more, std::back_inserter(to));
   }
 
-  /// The words of the file if they mean just this pose, else numbers.
-  std::vector<MjcfAttribute> pose_attributes(const MjcfElement& geom, const Pose& origin) const {
-    const Pose said = mjcf_pose(model_, geom);
-    const Pose in_body = geom.frame == Pose{} ? said : composed(geom.frame, said);
-    if (in_body != origin || model_.value(geom, "fromto"))
-      return mjcf_attributes_of(geom.frame == Pose{} ? origin : composed(inverse(geom.frame), origin));
+  /// The words of the file, which mean the same pose bit for bit; numbers in place of fromto, which no mesh can have.
+  std::vector<MjcfAttribute> pose_attributes(const MjcfElement& geom) const {
+    if (model_.value(geom, "fromto")) return mjcf_attributes_of(mjcf_pose(model_, geom));
     std::vector<MjcfAttribute> words;
     for (const std::string_view key : kPoseAttributes)
       if (const std::string* value = word_of(geom, key)) words.emplace_back(key, *value);
@@ -154,12 +152,12 @@ class MjcfWriter {
     if (class_has_pose(model_.main_class())) add_missing_pose(shape);
     std::vector<MjcfAttribute> result;
     if (!like) {
-      if (place_class.empty() || class_has_pose(place_class)) result.emplace_back("class", model_.main_class());
+      if (place_class.empty() || would_change(place_class, shape)) result.emplace_back("class", model_.main_class());
       append(result, {{"contype", "1"}, {"conaffinity", "1"}, {"group", "3"}, {"mass", "0"}});
       append(result, std::move(shape));
       return result;
     }
-    const bool flat = class_has_pose(like->class_name);
+    const bool flat = would_change(like->class_name, shape);
     const std::string& name = flat ? model_.main_class() : like->class_name;
     if (name != place_class || like->element->attribute("class")) result.emplace_back("class", name);
     if (flat) append(result, inherited(*like));
@@ -170,17 +168,19 @@ class MjcfWriter {
     return result;
   }
 
+  static bool says(const std::vector<MjcfAttribute>& shape, std::string_view key) {
+    return std::ranges::find(shape, key, &MjcfAttribute::first) != shape.end();
+  }
+
   /// Says what is the same without a word, against a class that says something else.
   void add_missing_pose(std::vector<MjcfAttribute>& shape) const {
-    const auto says = [&](std::string_view key) {
-      return std::ranges::any_of(shape, [&](const MjcfAttribute& it) { return it.first == key; });
-    };
-    if (!says("pos")) shape.emplace_back("pos", "0 0 0");
-    if (std::ranges::none_of(kMjcfOrientations, says)) shape.emplace_back("euler", "0 0 0");  // before all of a class
-    if (!says("quat")) return;
+    if (!says(shape, "pos")) shape.emplace_back("pos", "0 0 0");
+    const auto says_it = [&](std::string_view key) { return says(shape, key); };
+    if (std::ranges::none_of(kMjcfOrientations, says_it))
+      shape.emplace_back("euler", "0 0 0");  // before all of a class
+    if (!says(shape, "quat")) return;
     for (const std::string_view key : kMjcfOrientations)
-      if (key != "quat" && model_.defaults(model_.main_class(), "geom").contains(key))
-        refuse_default(fmt::format("{} for all geoms, which goes before what a hull says by quat", key));
+      if (key != "quat") refuse_in_main(key);  // it goes before the quat
   }
 
   static bool is_copied(std::string_view key, const MjcfBody& body) {
@@ -196,7 +196,11 @@ class MjcfWriter {
     return result;
   }
 
-  /// A pose that a class sets would move the hull.
+  /// A pose that a class sets would move a shape, and MuJoCo would fit a box to a mesh that it names.
+  bool would_change(const std::string& class_name, const std::vector<MjcfAttribute>& shape) const {
+    return class_has_pose(class_name) || (model_.defaults(class_name, "geom").contains("mesh") && !says(shape, "mesh"));
+  }
+
   bool class_has_pose(const std::string& name) const {
     const MjcfModel::Attributes& defaults = model_.defaults(name, "geom");
     return std::ranges::any_of(kPoseAttributes, [&](std::string_view key) { return defaults.contains(key); });
@@ -350,7 +354,7 @@ class MjcfWriter {
 
   // Assets
 
-  std::string add_mesh(const std::string& hull, const MjcfBody& body) {
+  std::string add_mesh(const std::string& hull, const MjcfBody& body, const MjcfElement* same) {
     const std::string extension = fs::path(hull).extension().string();
     if (extension != ".stl" && extension != ".obj")
       throw InputError(Defect::InvalidOption, fmt::format("{}: MuJoCo reads no {} files; write the hulls as stl or obj",
@@ -358,29 +362,39 @@ class MjcfWriter {
     if (hull.find("://") != std::string::npos)
       throw InputError(Defect::InvalidOption,
                        fmt::format("{}: MuJoCo reads paths, but no URIs such as {}", document_.file(), hull));
-    refuse_fromto();
+    refuse_in_main("fromto");
     std::string name = unique(body.name + "_hull", mesh_names_);
     assets_.push_back(
-        fmt::format("<mesh name=\"{}\" file=\"{}\"{}/>", xml_escaped(name), xml_escaped(hull), plain_mesh()));
+        fmt::format("<mesh name=\"{}\" file=\"{}\"{}/>", xml_escaped(name), xml_escaped(hull), mesh_attributes(same)));
     return name;
   }
 
-  void refuse_fromto() const {
-    if (model_.defaults(model_.main_class(), "geom").contains("fromto"))
-      refuse_default("fromto for all geoms, which no mesh or sphere can have");
+  void refuse_in_main(std::string_view key) const {
+    if (model_.defaults(model_.main_class(), "geom").contains(key))
+      throw InputError(Defect::Malformed,
+                       fmt::format("{}: the main <default> sets {} for all geoms, which the new ones cannot have",
+                                   document_.file(), key));
   }
 
-  [[noreturn]] void refuse_default(const std::string& what) const {
-    throw InputError(Defect::Malformed, fmt::format("{}: the main <default> sets {}", document_.file(), what));
-  }
-
-  /// What default classes say about meshes must not change a hull.
-  std::string plain_mesh() const {
-    static const std::array<std::pair<std::string_view, std::string_view>, 4> plain{
-        {{"scale", "1 1 1"}, {"refpos", "0 0 0"}, {"refquat", "1 0 0 0"}, {"maxhullvert", "-1"}}};
+  /// What default classes say about meshes must not change a hull. It has the reference of the mesh of `same`, whose
+  /// pose it has: that is in the scale of the hull.
+  std::string mesh_attributes(const MjcfElement* same) const {
+    std::map<std::string_view, std::string> attributes{
+        {"scale", "1 1 1"}, {"refpos", "0 0 0"}, {"refquat", "1 0 0 0"}, {"maxhullvert", "-1"}};
+    std::erase_if(attributes,
+                  [&](const auto& it) { return !model_.defaults(model_.main_class(), "mesh").contains(it.first); });
+    const std::string* const mesh = same ? model_.value(*same, "mesh") : nullptr;
+    if (const auto found = mesh ? model_.meshes().find(*mesh) : model_.meshes().end(); found != model_.meshes().end()) {
+      const MjcfElement asset = model_.asset(*found->second);
+      const std::vector<double> at = mjcf_numbers(model_, asset, "refpos", 3, 3);
+      std::vector<double> scale = mjcf_numbers(model_, asset, "scale", 3, 3);
+      if (scale.empty()) scale = {1, 1, 1};
+      if (!at.empty())
+        attributes["refpos"] = fmt::format("{} {} {}", at[0] * scale[0], at[1] * scale[1], at[2] * scale[2]);
+      if (const std::string* const turn = model_.value(asset, "refquat")) attributes["refquat"] = *turn;
+    }
     std::string text;
-    for (const auto& [key, value] : plain)
-      if (model_.defaults(model_.main_class(), "mesh").contains(key)) text += fmt::format(" {}=\"{}\"", key, value);
+    for (const auto& [key, value] : attributes) text += fmt::format(" {}=\"{}\"", key, xml_escaped(value));
     return text;
   }
 

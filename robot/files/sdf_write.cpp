@@ -143,14 +143,17 @@ class SdfWriter {
   void refill(const XmlElement& collision, const Piece& piece) {
     const XmlElement& geometry = *collision.child("geometry");
     const XmlElement* const pose = collision.child("pose");
-    if (pose && piece.pose.empty())
-      edits_.push_back({lines_of(document_, *pose), ""});
-    else if (pose && document_[pose->whole] != piece.pose)
+    if (pose && !piece.pose.empty() && document_[pose->whole] != piece.pose)
       edits_.push_back({pose->whole, piece.pose});
-    else if (!pose && !piece.pose.empty())
+    if (!pose && !piece.pose.empty())
       edits_.push_back({{geometry.whole.begin, geometry.whole.begin},
                         piece.pose + line_end_ + std::string(document_.indentation(geometry))});
     edits_.push_back({geometry.whole, piece.geometry});
+    for (const XmlElement* child : collision.children) {
+      const bool stays = child == &geometry || (child == pose && !piece.pose.empty());
+      if (!stays && (child->name == "pose" || child->name == "geometry"))
+        edits_.push_back({lines_of(document_, *child), ""});
+    }
   }
 
   const RobotFile& file_;

@@ -112,11 +112,14 @@ class UrdfWriter {
     if (!origin && !piece.origin.empty())
       edits_.push_back({{geometry.whole.begin, geometry.whole.begin}, piece.origin + break_before(geometry)});
     if (origin && !piece.origin.empty()) edits_.push_back({origin->whole, piece.origin});
-    if (origin && piece.origin.empty()) remove(*origin);
     if (!piece.form.empty() && geometry.children.size() == 1)
       edits_.push_back({geometry.children[0]->whole, piece.form});
     else
       edits_.push_back({geometry.whole, piece.whole_geometry()});
+    for (const XmlElement* child : collision.children) {
+      const bool is_rewritten = child == &geometry || (child == origin && !piece.origin.empty());
+      if (!is_rewritten && (child->name == "origin" || child->name == "geometry")) remove(*child);
+    }
   }
 
   std::string new_element(const XmlElement& neighbour, const Piece& piece) const {

@@ -36,13 +36,7 @@ void write_text(const path& file, const std::string& text) {
       fmt::format("{}: the file does not hold what was certified; choose another --format", file.string()));
 }
 
-/// Whether the robot has the ball among the collision elements of a link.
-bool has_ball(const Link& link, const Ball& ball) {
-  return std::ranges::any_of(link.collision, [&](const Shape& shape) {
-    const auto* const sphere = std::get_if<SphereForm>(&shape.form);
-    return sphere && sphere->radius == ball.radius && shape.origin.translation == ball.center;
-  });
-}
+bool is_same_shape(const Shape& a, const Shape& b) { return a.form == b.form && a.origin == b.origin; }
 
 /// The robot that with_collisions writes. Meshes of hulls have no path, because they are not written yet.
 Robot with_new_shapes(Robot robot, std::span<const NewCollision> collisions) {
@@ -117,11 +111,12 @@ class RobotSet {
   void add_to(RobotFiles& all, const path& folder) {
     const path name = fmt::format("{}{}{}", robot_stem(file_), suffix_, extension());
     std::string text = with_collisions(file_, collisions_, folder, new_uri_);
-    require_balls(text, folder / name);
+    Robot robot = with_new_shapes(file_.robot, collisions_);
+    require_shapes(text, folder / name, robot);
     files_.push_back(text_file(name, std::move(text)));
     if (!balls_.empty()) files_.push_back(text_file(robot_stem(file_) + "_spheres.yaml", sphere_file(balls_)));
     if (set_ == 0) all.balls = balls_;
-    all.robots.emplace_back(name, with_new_shapes(file_.robot, collisions_));
+    all.robots.emplace_back(name, std::move(robot));
     std::ranges::move(files_, std::back_inserter(all.files));
     std::ranges::move(hulls_, std::back_inserter(all.hulls));
   }
@@ -146,13 +141,14 @@ class RobotSet {
                                     : "package://" + options_.package + "/" + file.generic_string();
   }
 
-  /// What is certified are the numbers of the balls: the text has to say the same.
-  void require_balls(const std::string& text, const path& target) const {
-    if (std::ranges::all_of(collisions_, [](const NewCollision& c) { return c.balls.empty(); })) return;
+  /// The text has to say what was certified, bit for bit, and nothing else.
+  void require_shapes(const std::string& text, const path& target, const Robot& certified) const {
     const Robot written = read_robot(text, target).robot;
-    for (const NewCollision& collision : collisions_)
-      for (const Ball& ball : collision.balls)
-        if (!has_ball(written.links[collision.link], ball)) fail_to_write(target);
+    for (const NewCollision& collision : collisions_) {
+      const std::vector<Shape>&wanted = certified.links[collision.link].collision,
+            &read = written.links.at(collision.link).collision;
+      if (!std::ranges::is_permutation(wanted, read, is_same_shape)) fail_to_write(target);
+    }
   }
 
   /// Adds the balls of the cover, and spheres that are kept.

@@ -67,9 +67,9 @@ void check_options(const RobotFile& file, const WriteOptions& options);
 /// cuRobo reads them.
 ///
 /// What is written is read again: OutputFile::write throws InputError(CannotWrite) if a file does not hold the
-/// triangles that were certified, bit for bit, and this function if the text does not hold the balls. A link keeps its
-/// collision elements if it was skipped, has no geometry, or has no certified hull. Throws as check_options. `links`
-/// must outlive the result.
+/// triangles that were certified, bit for bit, and this function if the text does not say the certified shapes of a
+/// link and no others. A link keeps its collision elements if it was skipped, has no geometry, or has no certified
+/// hull. Throws as check_options. `links` must outlive the result.
 RobotFiles output_files(const RobotFile& file, std::span<const LinkHulls> links, const std::filesystem::path& folder,
                         const WriteOptions& options = {});
 

@@ -535,7 +535,7 @@ TEST(MjcfWithCollisions, KeepsThePoseOfWhatIsEnclosed) {
         const Link after = read(result).robot.links[0];
         ASSERT_EQ(after.visual.size(), 1U) << result;
         ASSERT_EQ(after.collision.size(), 1U) << result;
-        expect_near(after.collision[0].origin, before.visual[0].origin);
+        EXPECT_EQ(after.collision[0].origin, before.visual[0].origin) << result;
         EXPECT_EQ(after.collision[0].mesh()->scale, (Vec3{1, 1, 1}));
         EXPECT_EQ(after.collision[0].mesh()->uri, "meshes/500/a.stl");
         // In the frame of the link.
@@ -563,6 +563,23 @@ TEST(MjcfWithCollisions, PrimitivesThatAreKeptBecomeGeomsThatCollide) {
   NewCollision kept = hull_of(kHull, 0, {}, {0});
   kept.hulls.clear(), kept.from = Geometry::Collision;
   EXPECT_EQ(write(text, {kept}), text);
+}
+
+TEST(MjcfWithCollisions, PrimitivesThatAreKeptAreNotFittedToTheMeshOfAClass) {
+  const std::string classes =
+      "<default><default class='col'><geom type='mesh' mesh='part' group='3'/></default><default class='vis'><geom "
+      "contype='0' conaffinity='0'/></default></default>";
+  const std::string visual = "<geom class='vis' size='1'/><geom class='vis' type='mesh' mesh='part' pos='1 0 0'/>";
+  for (const char* const colliding : {"<geom class='col'/>", "<frame childclass='col'><geom/></frame>"}) {
+    NewCollision collision = hull_of(kHull, 0, 1, {0});
+    collision.balls = {{{1, 2, 3}, 4}};
+    const std::string result = write(with_body(visual + colliding, classes + kMesh), {collision});
+    const std::vector<Shape> shapes = read(result).robot.links[0].collision;
+    ASSERT_EQ(shapes.size(), 3U) << result;
+    for (const Form& wanted : {Form{SphereForm{1}}, Form{SphereForm{4}}, Form{MeshFile{.uri = kHull}}})
+      EXPECT_EQ(std::ranges::count(shapes, wanted, &Shape::form), 1) << result;
+    EXPECT_NE(result.find("group=\"3\" size=\"1\" type=\"sphere\""), std::string::npos) << result;
+  }
 }
 
 TEST(MjcfWithCollisions, RelativePathsStillFindTheirFiles) {

@@ -464,6 +464,19 @@ TEST(SdfWithCollisions, ChangesTheFirstCollisionAndRemovesTheOthers) {
   EXPECT_EQ(write(text, {hull_of(kHull, 0)}).find("9 9 9"), std::string::npos);
 }
 
+TEST(SdfWithCollisions, LeavesNoSecondPoseOrGeometry) {
+  const std::string text =
+      in_model("<link name='a'><collision name='c'><pose>0 0 0 0 0 0</pose><pose>1 0 0 0 0 0</pose>" + kBox + kBox +
+               "</collision></link>");
+  for (const std::optional<std::size_t> origin : {std::optional<std::size_t>(), std::optional<std::size_t>(0)}) {
+    NewCollision collision = hull_of(kHull, 0, origin);
+    collision.from = Geometry::Collision;
+    const std::string result = write(text, {collision});
+    EXPECT_EQ(result.find("<pose>0 0 0 0 0 0</pose>") != result.npos, origin.has_value()) << result;
+    for (const char* gone : {"<pose>1 0 0", "<box>"}) EXPECT_EQ(result.find(gone), result.npos) << result;
+  }
+}
+
 TEST(SdfWithCollisions, ReadsBackWithTheNewCollisions) {
   const std::string text =
       in_model("  <link name='a'>\n    <visual name='v'>\n      <pose>1 2 3 0 0 0</pose>\n      " + kBox +

@@ -374,6 +374,19 @@ TEST(WriteUrdf, RemovesTheOriginWhereTheFrameIsThatOfTheLink) {
                      "<mesh filename=\"h.stl\"/>"));
 }
 
+TEST(WriteUrdf, LeavesNoSecondOriginOrGeometry) {
+  const std::string before =
+      "<robot name='r'>\n <link name='a'>\n  <collision>\n   <origin xyz='0 0 0'/><origin xyz='1 0 0'/>\n"
+      "   <geometry><box size='1 1 1'/></geometry>\n   <geometry><box size='2 2 2'/></geometry>\n"
+      "   <origin xyz='2 0 0'/>\n  </collision>\n </link>\n</robot>\n";
+  for (const std::optional<std::size_t> origin : {std::optional<std::size_t>(), std::optional<std::size_t>(0)}) {
+    const std::string after = written(before, {0, Geometry::Collision, {"h.stl"}, origin, {}, {}});
+    EXPECT_EQ(after.find("<origin xyz='0 0 0'/>") != after.npos, origin.has_value()) << after;
+    for (const char* gone : {"<origin xyz='1 0 0'/>", "<origin xyz='2 0 0'/>", "<box"})
+      EXPECT_EQ(after.find(gone), after.npos) << after;
+  }
+}
+
 TEST(WriteUrdf, AddsCollisionsAfterTheLastVisual) {
   const std::string before =
       "<robot name='r'>\r\n\t<link name='a'>\r\n\t\t<visual>\r\n\t\t\t<origin xyz='1 0 0'/>\r\n"

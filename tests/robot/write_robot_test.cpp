@@ -183,6 +183,11 @@ TEST_F(WriteRobotTest, WritesSpheresThatALinkHadBeforeToo) {
   EXPECT_EQ(listed[0].balls, (std::vector<Ball>{{{1, 2, 3}, 0.5}}));
 }
 
+TEST_F(WriteRobotTest, WritesNoRobotThatDoesNotSayWhatWasCertified) {
+  file_.robot.links[0].visual[0].origin.translation.z = 2;  // the text says 1
+  EXPECT_THROW(output_files(file_, hulls_, folder_.path() / "out", how_), InputError);
+}
+
 TEST_F(WriteRobotTest, KeepsTheCollisionElementsOfALinkWithoutACertificate) {
   for (LinkHull& hull : hulls_[0].hulls) hull.verdict.certified = false;
   const std::filesystem::path out = folder_.path() / "out";
