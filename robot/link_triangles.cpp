@@ -34,7 +34,7 @@ Pose pose_in(const Frame& frame, const Shape& shape) { return shape.origin == fr
 
 TriangleMesh mesh_triangles(const MeshFile& mesh) {
   if (mesh.path.empty()) throw InputError(Defect::CannotRead, mesh.why_not);
-  TriangleMesh triangles = read_mesh(mesh.path, {.non_finite = NonFinite::Keep});
+  TriangleMesh triangles = read_mesh(mesh.path, {.non_finite = NonFinite::Keep, .alone = mesh.alone});
   if (mesh.scale != Vec3{1, 1, 1})
     for (Vec3& p : triangles.positions) p = {p.x * mesh.scale.x, p.y * mesh.scale.y, p.z * mesh.scale.z};
   if (mirrors(mesh.scale))

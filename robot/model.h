@@ -22,6 +22,7 @@ struct MeshFile {
   std::filesystem::path path = {};  ///< where it is; empty if it was not found
   std::string why_not = {};         ///< if it was not found: where it was looked for
   Vec3 scale{1, 1, 1};              ///< of the coordinates in the mesh file
+  bool alone = false;               ///< as ReadOptions::alone
 
   /// Whether files say the same of two meshes.
   friend bool operator==(const MeshFile& a, const MeshFile& b) { return a.uri == b.uri && a.scale == b.scale; }

@@ -94,7 +94,7 @@ void add_robot_file_options(CLI::App& command, robot::FileOptions& options) {
   command.add_flag("--no-outside-files", options.no_outside_files,
                    "Refuse a robot that names mesh files outside of its package, or of its folder if it is in no "
                    "package; --package-path and the environment variables of ROS name other folders. Refuse xacro, and "
-                   "meshes such as .gltf that name other files. For robots of people whom you do not trust.");
+                   "meshes that have data in other files, as .gltf may. For robots of people whom you do not trust.");
 }
 
 void add_mesh_input(CLI::App& command, std::filesystem::path& in, InputOptions& options, const std::string& purpose) {

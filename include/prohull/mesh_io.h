@@ -49,6 +49,7 @@ struct ReadOptions {
   MeshMarks* marks = nullptr;  ///< where to put what PLY and OBJ files say of vertices and faces beside the geometry
   std::vector<DividedFace>* divided = nullptr;  ///< where to put polygons of PLY, OBJ and OFF files that are no fans
   FileUnit* unit = nullptr;                     ///< where to put the unit of the file
+  bool alone = false;                           ///< InputError(CannotRead) for a file that has data in other files
   Progress progress = {};                       ///< stage "read"
 };
 

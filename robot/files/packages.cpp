@@ -10,7 +10,6 @@
 #include <iterator>
 #include <optional>
 
-#include "prohull/detail/extension.h"
 #include "prohull/error.h"
 #include "robot/files/xml.h"
 
@@ -133,12 +132,6 @@ bool is_in(const fs::path& file, const fs::path& folder) {
   std::error_code error;
   const fs::path root = fs::weakly_canonical(folder, error), place = fs::weakly_canonical(file, error);
   return !error && std::ranges::mismatch(root, place).in1 == root.end();
-}
-
-/// Files of these formats name no other files that are read.
-bool stands_alone(const fs::path& mesh) {
-  constexpr std::array<std::string_view, 7> kAlone{".stl", ".obj", ".ply", ".off", ".glb", ".dae", ".msh"};
-  return std::ranges::find(kAlone, lower_case_extension(without_gz(mesh))) != kAlone.end();
 }
 
 std::optional<char> byte_of_hex(std::string_view digits) {
@@ -276,8 +269,7 @@ void Packages::require_inside(const MeshFile& file) const {
 MeshFile Packages::find(std::string uri, const Vec3& scale, const fs::path& folder) const {
   MeshFile mesh = found(std::move(uri), scale, folder);
   require_inside(mesh);
-  if (!inside_.empty() && !mesh.path.empty() && !stands_alone(mesh.path))
-    refuse_outside(mesh, "a file of this format may name other files; convert it to GLB");
+  mesh.alone = !inside_.empty();
   return mesh;
 }
 

@@ -27,7 +27,8 @@ struct FileOptions {
   /// variables ROS_PACKAGE_PATH and AMENT_PREFIX_PATH name.
   std::vector<std::filesystem::path> package_paths;
   /// Only read mesh files in the package of the robot's file, or in its folder if that is in no package, and in the
-  /// folders above that name packages; and no xacro file, whose macros may read any file.
+  /// folders above that name packages, none of which may have data in other files; and no xacro file, whose macros may
+  /// read any file.
   bool no_outside_files = false;
 };
 

@@ -89,7 +89,8 @@ LinkCertificates link_certificates(const Robot& robot, std::span<const LinkHulls
     certificate.original = file ? named_file(file->path, written, folder)
                                 : path("meshes") / "original" / with_suffix(hulls[i].stem.filename(), ".ply");
     CertifiedOriginal original{of_link.triangles, file ? file->scale.x : 1};
-    if (file) read_mesh(file->path, {.non_finite = NonFinite::Keep, .divided = &original.divided});
+    if (file)
+      read_mesh(file->path, {.non_finite = NonFinite::Keep, .divided = &original.divided, .alone = file->alone});
     Certificate proof = certificate_of(of_link.hulls[hulls[i].set], {of_link.triangles, file ? file->scale.x : 1},
                                        options.budget_of(link.name));
     certificate.file = with_suffix(hulls[i].stem, ".phcert");

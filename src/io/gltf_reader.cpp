@@ -60,7 +60,7 @@ struct Chunks {
 class GltfReader {
  public:
   GltfReader(std::string_view content, const std::string& file, const ReadOptions& options)
-      : file_(file), content_size_(content.size()), builder_(file, 0, content, options) {
+      : file_(file), alone_(options.alone), content_size_(content.size()), builder_(file, 0, content, options) {
     const Chunks chunks = content.starts_with(kGlbMagic) ? chunks_of(content) : Chunks{content, {}};
     binary_ = chunks.binary;
     parse(chunks.json);
@@ -466,6 +466,10 @@ class GltfReader {
     }
     if (uri.find("://") != uri.npos)
       fail_in(where, fmt::format("{} is not a file beside this one; download it, or export as GLB", in_quotes(uri)));
+    if (alone_)
+      throw InputError(Defect::CannotRead,
+                       fmt::format("{}: {}: its data is in {}, which --no-outside-files refuses; export as GLB", file_,
+                                   where, in_quotes(uri)));
     const std::filesystem::path path = std::filesystem::path(file_).parent_path() / without_percents(uri);
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))  // a pipe or a device may have no end
@@ -517,6 +521,7 @@ class GltfReader {
   }
 
   const std::string& file_;
+  const bool alone_;
   mutable std::size_t content_size_;  ///< with the buffers in other files
   std::size_t grown_ = 0;
   MeshBuilder builder_;

@@ -198,8 +198,9 @@ TriangleMesh imported_mesh(std::string_view content, const std::string& file, co
                            const Progress& progress) {
   const auto program = importer();
   if (!program) refuse_without_importer(file);
-  const std::vector<std::string> arguments = {
-      without_gz(file).string(), fmt::format("{}", (limits.time.count() + 1) / 2), fmt::format("{}", limits.memory)};
+  const std::vector<std::string> arguments = {without_gz(file).string(),
+                                              fmt::format("{}", (limits.time.count() + 1) / 2),
+                                              fmt::format("{}", limits.memory), limits.alone ? kImportAlone : ""};
   const std::optional<std::string> utf8 = utf8_of_utf16(content);  // assimp 5.2.5 reads XML in UTF-8 only
   ProgressMeter meter(progress, "read");
   const ProgramResult result = run_program(*program, arguments, utf8 ? *utf8 : content, {limits.time, limits.output},

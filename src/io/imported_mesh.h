@@ -22,6 +22,7 @@ bool is_imported(const std::filesystem::path& name);
 struct ImportLimits {
   std::chrono::seconds time;   ///< by the clock; of the processor half of it
   std::size_t memory, output;  ///< bytes
+  bool alone = false;          ///< no other files
 };
 ImportLimits import_limits(std::size_t file_size);
 

@@ -122,7 +122,11 @@ std::optional<std::string> with_line_feeds(std::string_view content) {
 
 TriangleMesh read_plain(std::string_view content, const std::filesystem::path& name, const ReadOptions& options) {
   if (options.unit) *options.unit = unit_of_file(content, name);
-  if (is_imported(name)) return imported_mesh(content, name.string(), import_limits(content.size()), options.progress);
+  if (is_imported(name)) {
+    ImportLimits limits = import_limits(content.size());
+    limits.alone = options.alone;
+    return imported_mesh(content, name.string(), limits, options.progress);
+  }
   const std::optional<std::string> text = with_line_feeds(content);
   const std::string_view lines = text ? *text : content;
   return format_of(lines, name).read(lines, name.string(), options);

@@ -77,6 +77,28 @@ TEST(Gltf, IsReadFromEmbeddedExternalAndBinaryBuffers) {
   EXPECT_EQ(read_mesh(zipped({{"a.glb", binary}, {"texture.png", "x"}}), "a.zip"), tetrahedron());
 }
 
+TEST(Gltf, StandsAloneIfItHasTo) {
+  const TemporaryFolder folder;
+  Json json = tetrahedron_json();
+  EXPECT_EQ(read_mesh(json.dump(), "a.gltf", {.alone = true}), tetrahedron());
+  const std::filesystem::path other = folder / "other.bin";
+  write_bytes(other, tetrahedron_bytes());
+  json["buffers"][0]["uri"] = other.string();
+  for (const auto& [content, name] : {std::pair{json.dump(), "a.gltf"},
+                                      {glb(json.dump(), ""), "a.glb"},
+                                      {zipped({{"a.gltf", json.dump()}}), "a.obj"}}) {
+    EXPECT_EQ(read_mesh(content, name), tetrahedron()) << name;
+    try {
+      read_mesh(content, name, {.alone = true});
+      ADD_FAILURE() << name;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.defect(), Defect::CannotRead) << name;
+      EXPECT_NE(std::string(error.what()).find("other.bin', which --no-outside-files refuses"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(Gltf, PlacesEachInstance) {
   Json json = tetrahedron_json();
   json["scenes"][0]["nodes"] = {0, 2};

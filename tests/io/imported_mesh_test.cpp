@@ -240,6 +240,18 @@ TEST_F(Assimp, ReadsColladaInUtf16) {
   }
 }
 
+TEST_F(Assimp, ReadsOtherFilesUnlessTheFileHasToStandAlone) {
+  const TemporaryFolder folder;
+  const std::filesystem::path part = folder / "part.obj";
+  write_bytes(part, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string scene = "LWSC\n5\n\nLoadObjectLayer 1 " + part.string() + "\nEndScene\n";
+  EXPECT_EQ(read_mesh(scene, "a.lws").face_count(), 1u);
+  expect_input_error([&] { read_mesh(scene, "a.lws", {.alone = true}); }, Defect::Malformed,
+                     "a.lws: assimp refuses it: it has data in " + part.string() +
+                         ", which --no-outside-files refuses" + std::string(kConvert));
+  EXPECT_GT(read_mesh(collada("", kInstance), "a.dae", {.alone = true}).face_count(), 0u);
+}
+
 TEST_F(Assimp, ThatRefusesIsQuoted) {
   expect_refused("hello", "a.dae",
                  "a.dae: assimp refuses it: Unable to read file, malformed XML" + std::string(kConvert));

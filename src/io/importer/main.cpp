@@ -69,27 +69,33 @@ std::string all_of_stdin() {
   return content;
 }
 
-/// The main file is in memory; of others only regular files are opened, for a pipe or a device may have no end.
+/// The main file is in memory; of others only regular files are opened, for a pipe or a device may have no end. If it
+/// has to stand alone, one that asks for another file is refused.
 class FileSystem : public Assimp::DefaultIOSystem {
  public:
-  FileSystem(const std::string& name, const std::string& content) : name_(name), content_(content) {}
+  FileSystem(const std::string& name, const std::string& content, bool alone)
+      : name_(name), content_(content), alone_(alone) {}
 
-  bool Exists(const char* path) const override { return path == name_ || is_regular(path); }
+  bool Exists(const char* path) const override { return path == name_ || is_other(path); }
 
   Assimp::IOStream* Open(const char* path, const char* mode) override {
     if (path == name_)
       return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(content_.data()), content_.size());
-    return is_regular(path) ? Assimp::DefaultIOSystem::Open(path, mode) : nullptr;
+    return is_other(path) ? Assimp::DefaultIOSystem::Open(path, mode) : nullptr;
   }
 
  private:
-  static bool is_regular(const char* path) {
+  bool is_other(const char* path) const {
     std::error_code error;
-    return std::filesystem::is_regular_file(path, error);
+    if (!std::filesystem::is_regular_file(path, error)) return false;
+    if (!alone_) return true;
+    std::printf("it has data in %s, which --no-outside-files refuses", path);
+    leave(kImportRefused);
   }
 
   const std::string& name_;
   const std::string& content_;
+  const bool alone_;
 };
 
 Affine affine(const aiMatrix4x4& m) {
@@ -168,10 +174,10 @@ class Polygons {
   std::uint64_t polygon_count_ = 0;
 };
 
-int run(const std::string& name) {
+int run(const std::string& name, bool alone) {
   const std::string content = all_of_stdin();
   Assimp::Importer importer;
-  importer.SetIOHandler(new FileSystem(name, content));
+  importer.SetIOHandler(new FileSystem(name, content, alone));
   // As rviz and MoveIt do: the unit of a COLLADA file is applied, its up_axis is not (docs/formats.md).
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
@@ -188,10 +194,10 @@ int run(const std::string& name) {
 }  // namespace prohull
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
+  if (argc != 5) {
     std::fputs("prohull-import is run by prohull, and by nobody else\n", stderr);
     return prohull::kImportMisused;
   }
   prohull::limit_resources(std::strtoull(argv[2], nullptr, 10), std::strtoull(argv[3], nullptr, 10));
-  return prohull::run(argv[1]);
+  return prohull::run(argv[1], std::string(argv[4]) == prohull::kImportAlone);
 }
