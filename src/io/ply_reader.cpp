@@ -166,7 +166,9 @@ class PlyReader {
             element, [&](const PlyProperty& property, std::size_t) { skip(property); }, [](Place) {});
     }
     body_.finish();
-    if (has_face_colors_) marks_->face_colors.resize(builder_.triangle_count());  // strips may follow
+    // Other elements may follow those with colours.
+    if (has_face_colors_) marks_->face_colors.resize(builder_.triangle_count());
+    if (has_vertex_colors_) marks_->vertex_colors.resize(builder_.vertex_count());
     return builder_.finish();
   }
 
@@ -213,6 +215,8 @@ class PlyReader {
     builder_.reserve_vertices(std::min(element.count, body_.fits(element, 0, NumberType::Int8)));
     Vec3 position;
     const ColorProperties colors(element, marks_ != nullptr);
+    has_vertex_colors_ |= colors.all();
+    if (colors.all()) marks_->vertex_colors.resize(builder_.vertex_count());
     const auto read_property = [&](const PlyProperty& property, std::size_t i) {
       if (const auto channel = colors.channel_at(i))
         read_channel(*channel, property.type);
@@ -236,6 +240,8 @@ class PlyReader {
     std::vector<std::int64_t> corners;
     const ColorProperties colors(element, marks_ != nullptr);
     has_face_colors_ |= colors.all();
+    color_ = {};
+    if (has_face_colors_) marks_->face_colors.resize(builder_.triangle_count());
     const auto read_property = [&](const PlyProperty& property, std::size_t i) {
       if (const auto channel = colors.channel_at(i)) return read_channel(*channel, property.type);
       if (i != *wanted) return skip(property);
@@ -271,7 +277,7 @@ class PlyReader {
   MeshBuilder builder_;
   MeshMarks* const marks_;
   Color color_;  ///< of the record that is read
-  bool has_face_colors_ = false;
+  bool has_face_colors_ = false, has_vertex_colors_ = false;
 };
 
 }  // namespace

@@ -54,6 +54,26 @@ TEST(Ply, TellsColorsOnRequest) {
   EXPECT_TRUE(none.vertex_colors.empty() && none.face_colors.empty());
 }
 
+TEST(Ply, HasAColorForEachVertexAndFaceOrNone) {
+  const std::string colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  const auto marks_of = [&](bool first) {  // of two elements of vertices, and two of faces, which one has colours
+    const std::string of_first = first ? colors : "", of_second = first ? "" : colors;
+    const std::string red = " 255 0 0\n", plain = "\n";
+    MeshMarks marks;
+    read_mesh("ply\nformat ascii 1.0\nelement vertex 1\n" + kVertices + of_first + "element vertex 2\n" + kVertices +
+                  of_second + "element face 1\n" + kFaces + of_first + "element face 1\n" + kFaces + of_second +
+                  "end_header\n0 0 0" + (first ? red : plain) + "1 0 0" + (first ? plain : red) + "0 1 0" +
+                  (first ? plain : red) + "3 0 1 2" + (first ? red : plain) + "3 2 1 0" + (first ? plain : red),
+              "a.ply", {.marks = &marks});
+    return marks;
+  };
+  const Color red{255, 0, 0}, none;
+  EXPECT_EQ(marks_of(true).vertex_colors, PerVertex<Color>({red, none, none}));
+  EXPECT_EQ(marks_of(false).vertex_colors, PerVertex<Color>({none, red, red}));
+  EXPECT_EQ(marks_of(true).face_colors, PerFace<Color>({red, none}));
+  EXPECT_EQ(marks_of(false).face_colors, PerFace<Color>({none, red}));
+}
+
 TEST(Ply, ReadsAsciiAndBothByteOrders) {
   expect_one_triangle(header("ascii", 3, 1) + kAsciiBody);
   expect_one_triangle(header("binary_little_endian", 3, 1) + binary_body(std::endian::little));
