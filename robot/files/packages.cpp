@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <optional>
 
+#include "prohull/detail/percents.h"
 #include "prohull/error.h"
 #include "robot/files/xml.h"
 
@@ -134,33 +133,16 @@ bool is_in(const fs::path& file, const fs::path& folder) {
   return !error && std::ranges::mismatch(root, place).in1 == root.end();
 }
 
-std::optional<char> byte_of_hex(std::string_view digits) {
-  unsigned value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
-  if (digits.size() != 2 || error != std::errc() || end != digits.data() + 2 || value == 0) return std::nullopt;
-  return static_cast<char>(value);
-}
-
-std::string percent_decoded(std::string_view text) {
-  std::string decoded;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto byte = text[i] == '%' ? byte_of_hex(text.substr(i + 1, 2)) : std::nullopt;
-    decoded += byte.value_or(text[i]);
-    if (byte) i += 2;
-  }
-  return decoded;
-}
-
 /// The file that a path names as it is written, or with its %20 decoded.
 std::optional<fs::path> file_at(const fs::path& folder, std::string_view path) {
-  for (const fs::path& candidate : {fs::path(path), fs::path(percent_decoded(path))})
+  for (const fs::path& candidate : {fs::path(path), fs::path(without_percents(path))})
     if (const fs::path file = tidied(folder / candidate); is_file(file)) return file;
   return std::nullopt;
 }
 
 /// Whether a relative path leads out of the folder that it begins in.
 bool leads_out(std::string_view path) {
-  const fs::path normal = fs::path(percent_decoded(path)).lexically_normal();
+  const fs::path normal = fs::path(without_percents(path)).lexically_normal();
   return normal.is_absolute() || (!normal.empty() && *normal.begin() == "..");
 }
 
@@ -239,7 +221,7 @@ std::string Packages::looked_in() const {
 
 void Packages::find_in_package(std::string_view inside, std::string_view scheme, MeshFile& mesh) const {
   const std::size_t slash = std::min(inside.find('/'), inside.size());
-  const std::string name = percent_decoded(inside.substr(0, slash));
+  const std::string name = without_percents(inside.substr(0, slash));
   const std::string_view path = without_slashes(inside.substr(slash));
   if (name.empty() || name == "." || name == ".." || path.empty())
     return void(mesh.why_not = fmt::format("expected {}://PACKAGE/FILE", scheme));

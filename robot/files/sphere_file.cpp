@@ -82,10 +82,12 @@ double finite_number(const nlohmann::json& value, const std::filesystem::path& p
 }
 
 Ball ball_of(const nlohmann::json& sphere, const std::filesystem::path& path) {
-  const auto at = [&](const char* key) {
-    return sphere.is_object() ? sphere.value(key, nlohmann::json()) : nlohmann::json();
+  static const nlohmann::json none;
+  const auto at = [&](const char* key) -> const nlohmann::json& {  // no copy, which may overflow the stack
+    const auto found = sphere.is_object() ? sphere.find(key) : sphere.end();
+    return found == sphere.end() ? none : *found;
   };
-  const nlohmann::json center = at("center");
+  const nlohmann::json& center = at("center");
   if (!center.is_array() || center.size() != 3)
     refuse_json(path, "expected spheres as {\"center\": [x, y, z], \"radius\": r}");
   return {{finite_number(center[0], path), finite_number(center[1], path), finite_number(center[2], path)},

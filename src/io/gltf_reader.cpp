@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -17,6 +16,7 @@
 #include "io/mesh_readers.h"
 #include "io/number_type.h"
 #include "prohull/detail/base64.h"
+#include "prohull/detail/percents.h"
 
 // Sections are those of the glTF 2.0 specification (Khronos, 2021).
 
@@ -493,21 +493,6 @@ class GltfReader {
     std::filesystem::path folder = std::filesystem::path(file_).parent_path();
     while (folder.has_relative_path() && !std::filesystem::exists(folder, error)) folder = folder.parent_path();
     return std::filesystem::is_regular_file(folder, error);
-  }
-
-  static std::string without_percents(std::string_view uri) {
-    std::string path;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-      unsigned char code = 0;
-      const char* const digits = uri.data() + i + 1;
-      if (uri[i] == '%' && i + 2 < uri.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
-        path += static_cast<char>(code);
-        i += 2;
-      } else {
-        path += uri[i];
-      }
-    }
-    return path;
   }
 
   /// Few bytes can place a mesh many times: what comes out is limited like what comes out of compressed files.
