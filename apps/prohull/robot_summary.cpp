@@ -77,21 +77,22 @@ std::string notes_text(const std::string& link, const LinkHull& hull, bool has_o
   return text;
 }
 
+/// A line with the number of links, what holds of them, and the first names.
+std::string links_text(std::span<const std::string> links, std::string_view one, std::string_view many) {
+  constexpr std::size_t kMostNamed = 5;
+  if (links.empty()) return "";
+  const auto named = links.first(std::min(links.size(), kMostNamed));
+  return fmt::format("  {}: {}{}\n", counted(links.size(), one, many), fmt::join(named, ", "),
+                     links.size() > kMostNamed ? fmt::format(", and {} more", grouped(links.size() - kMostNamed)) : "");
+}
+
 /// Nothing else in the summary is about these links.
 std::string collision_only_text(const ReportInput& facts) {
-  constexpr std::size_t kMostNamed = 5;
-  std::size_t links = 0;
-  std::string names;
+  std::vector<std::string> links;
   for (const LinkHulls& made : facts.hulls)
-    if (has_collision_only(facts, made) && ++links <= kMostNamed)
-      names += (links == 1 ? "" : ", ") + facts.file.robot.links[made.link].name;
-  if (links == 0) return "";
-  if (links > kMostNamed) names += fmt::format(", and {} more", grouped(links - kMostNamed));
-  return fmt::format(
-      "  {}: {}\n",
-      counted(links, "link has collision geometry only, which it keeps, and nothing about it was looked at",
-              "links have collision geometry only, which they keep, and nothing about them was looked at"),
-      names);
+    if (has_collision_only(facts, made)) links.push_back(facts.file.robot.links[made.link].name);
+  return links_text(links, "link has collision geometry only, which it keeps, and nothing about it was looked at",
+                    "links have collision geometry only, which they keep, and nothing about them was looked at");
 }
 
 std::string hulls_text(const ReportInput& facts) {
@@ -113,7 +114,10 @@ std::string hulls_text(const ReportInput& facts) {
           counted(made.non_finite_faces, "triangle that is not finite was", "triangles that are not finite were"));
     for (const LinkHull& hull : made.hulls) text += notes_text(name, hull, made.hulls.size() > 1);
   }
-  return text + collision_only_text(facts);
+  return text + collision_only_text(facts) +
+         links_text(facts.without_spheres,
+                    "link has geometry but no spheres, and planners that read these see none of it",
+                    "links have geometry but no spheres, and planners that read these see none of it");
 }
 
 /// How a link stands, as a word of the table, and where links are counted.

@@ -304,6 +304,7 @@ int run_build(const UrdfOptions& options, const RobotFile& file) {
                     .version = PROHULL_VERSION,
                     .from = options.hulls.from};
   const RobotFiles files = output_files(file, facts.hulls, folder.get(), how);
+  if (!files.balls.empty()) facts.without_spheres = links_without_spheres(file.robot, files.balls);
   for (const OutputFile& output : files.files) folder.add(output.path, output.write);
   const bool is_covered = std::ranges::all_of(facts.hulls, is_as_asked);
   const std::string key = run_key(options, file, facts.hulls);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
+#include <string_view>
 #include <vector>
 
 namespace prohull::robot {
@@ -40,6 +42,15 @@ std::vector<std::size_t> depths(const Robot& robot) {
   std::vector<std::size_t> depths(robot.links.size());
   for (const Joint& joint : robot.joints) depths[joint.child] = depths[joint.parent] + 1;
   return depths;
+}
+
+/// A comment that names the links to which the planner is blind.
+void add_blind_spots(Lines& lines, const PlannerRobot& planned) {
+  std::vector<std::string> links = links_without_spheres(planned.robot, planned.balls);
+  if (links.empty()) return;
+  std::ranges::transform(links, links.begin(), yaml_quoted);
+  lines.push_back(
+      fmt::format("# No spheres, and so no collisions, of these links that have geometry: {}", fmt::join(links, ", ")));
 }
 
 class Planner {
@@ -114,19 +125,28 @@ class Planner {
 
 }  // namespace
 
+std::vector<std::string> links_without_spheres(const Robot& robot, std::span<const LinkBalls> balls) {
+  std::set<std::string_view> covered;
+  for (const LinkBalls& link : balls)
+    if (!link.balls.empty()) covered.insert(link.link);
+  std::vector<std::string> blind;
+  for (const Link& link : robot.links)
+    if (!(link.visual.empty() && link.collision.empty()) && !covered.contains(link.name)) blind.push_back(link.name);
+  return blind;
+}
+
 std::string curobo_file(const PlannerRobot& planned) {
   const Planner planner(planned);
-  Lines lines{"# Give the folder of this file to cuRobo as external_asset_path and external_robot_configs_path.",
-              "robot_cfg:",
-              "  kinematics:",
-              fmt::format("    urdf_path: {}", yaml_quoted(planned.urdf)),
-              "    asset_root_path: \"\"",
-              fmt::format("    base_link: {}", planner.base()),
-              fmt::format("    ee_link: {}", planner.tool()),
-              fmt::format("    collision_link_names: {}", planner.links()),
-              fmt::format("    mesh_link_names: {}", planner.links()),
-              "    collision_sphere_buffer: 0.0",
-              "    collision_spheres:"};
+  Lines lines;
+  add_blind_spots(lines, planned);
+  lines.insert(
+      lines.end(),
+      {"# Give the folder of this file to cuRobo as external_asset_path and external_robot_configs_path.",
+       "robot_cfg:", "  kinematics:", fmt::format("    urdf_path: {}", yaml_quoted(planned.urdf)),
+       "    asset_root_path: \"\"", fmt::format("    base_link: {}", planner.base()),
+       fmt::format("    ee_link: {}", planner.tool()), fmt::format("    collision_link_names: {}", planner.links()),
+       fmt::format("    mesh_link_names: {}", planner.links()), "    collision_sphere_buffer: 0.0",
+       "    collision_spheres:"});
   planner.add_balls(lines, "      ");
   planner.add_ignored(lines, "    self_collision_ignore", "      ");
   lines.emplace_back("    self_collision_buffer:");
@@ -143,7 +163,9 @@ std::string curobo_file(const PlannerRobot& planned) {
 
 std::string xrdf_file(const PlannerRobot& planned) {
   const Planner planner(planned);
-  Lines lines{"format: xrdf", "format_version: 1.0", "default_joint_positions:"};
+  Lines lines;
+  add_blind_spots(lines, planned);
+  lines.insert(lines.end(), {"format: xrdf", "format_version: 1.0", "default_joint_positions:"});
   planner.add_rest_by_name(lines);
   const auto limits = [&](double limit) { return list_of(repeated(limit, planner.joint_count())); };
   lines.insert(lines.end(),

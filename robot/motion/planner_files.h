@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "robot/files/sphere_file.h"
 #include "robot/motion/motion.h"
@@ -11,10 +12,13 @@ namespace prohull::robot {
 /// What planners on GPUs read beside a URDF file.
 struct PlannerRobot {
   const Robot& robot;                 ///< the base is its first root, the tool the link that most joints lead to
-  std::span<const LinkBalls> balls;   ///< links without any are not checked for collisions
+  std::span<const LinkBalls> balls;   ///< links without any are not checked for collisions, and the files say so
   std::span<const MotionPair> pairs;  ///< those that are adjacent, or proven to meet always or never, are left out
   std::string urdf;                   ///< the name of the URDF file, in the same folder
 };
+
+/// The links with geometry, but without spheres, to which planners that read the spheres are blind.
+std::vector<std::string> links_without_spheres(const Robot& robot, std::span<const LinkBalls> balls);
 
 /// The configuration of the robot for cuRobo: robot_cfg of its robot files. Joints rest in the middle of their limits.
 /// Weights, accelerations and jerks are those of cuRobo's own template: a URDF file has none. Numbers read back as the

@@ -96,6 +96,12 @@ TEST(SphereJson, RefusesAnythingElse) {
   }
 }
 
+TEST(SphereJson, MayHaveDeeplyNestedValues) {
+  const std::string deep = std::string(500'000, '[') + std::string(500'000, ']');
+  for (const std::string& sphere : {R"({"radius": 1, "center": )" + deep + "}", deep})
+    EXPECT_THROW(read_sphere_json(R"({"spheres": [)" + sphere + "]}", "a.json"), InputError);
+}
+
 TEST(SphereFile, RefusesAnythingElseWithTheLine) {
   const std::string head = "collision_spheres:\n  a:\n";
   EXPECT_EQ(refusal(""), "spheres.yaml: line 1: expected collision_spheres: and below it links");
@@ -158,6 +164,18 @@ TEST(PlannerFiles, OfCuRoboLeaveOutPairsThatAreProven) {
   const std::vector<LinkBalls> read = read_sphere_file(text, "arm_curobo.yml");
   ASSERT_EQ(read.size(), 4U);
   EXPECT_EQ(read[1].balls, arm.balls[1].balls);
+}
+
+TEST(PlannerFiles, NameLinksToWhichAPlannerIsBlind) {
+  Planned arm;
+  EXPECT_EQ(curobo_file(arm.planner()).find("# No spheres"), std::string::npos) << "link3 has no geometry";
+  arm.robot.links[2].visual = arm.robot.links[3].collision = {{BoxForm{{1, 1, 1}}}};
+  EXPECT_EQ(links_without_spheres(arm.robot, arm.balls), std::vector<std::string>{"link3"});
+  const std::string line = "# No spheres, and so no collisions, of these links that have geometry: \"link3\"\n";
+  for (const std::string& text : {curobo_file(arm.planner()), xrdf_file(arm.planner())}) {
+    EXPECT_TRUE(text.starts_with(line)) << text;
+    EXPECT_TRUE(YAML::Load(text).IsMap());
+  }
 }
 
 TEST(PlannerFiles, OfXrdfHaveTheSameSpheresAndPairs) {
