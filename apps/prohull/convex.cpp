@@ -384,7 +384,7 @@ nlohmann::json report_of(const ConvexOptions& options, const PieceFiles& files, 
 }
 
 Outcome cover_and_write(ConvexOptions options, const PieceFiles& files) {
-  options.cover.float32_coordinates = files.has_float32();
+  options.cover.float32_coordinates = files.has_float32() || options.engine;  // engines read OBJ as float32, too
   options.cover.boxes_as_meshes = !files.is_robot();
   if (options.engine)
     options.cover.max_vertices = std::min(options.cover.max_vertices, most_vertices(*options.engine.value()));

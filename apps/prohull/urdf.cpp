@@ -36,7 +36,8 @@ struct UrdfOptions {
   path in, out, budgets, write_budgets, cache, report, junit, html, srdf;
   FileOptions file;
   LinkHullOptions hulls;
-  std::string max_distance = "0", gap = "0", allow = "0", package, to;
+  std::string max_distance = "0", gap = "0", allow = "0", package, to,
+              format = "stl";  ///< as WriteOptions::format
   bool certificate = false, check = false, dry_run = false, no_cache = false, no_pictures = false,
        sampled_pairs = false;
   MotionOptions motion{.configurations = 1000};
@@ -128,7 +129,8 @@ std::string run_key(const UrdfOptions& options, const RobotFile& file, std::span
     }
     key.add(std::size_t(budget.skip));
   }
-  key.add(std::size_t(options.hulls.from)), key.add(std::size_t(options.hulls.skip_missing)), key.add(options.package);
+  key.add(std::size_t(options.hulls.from)), key.add(std::size_t(options.hulls.skip_missing)), key.add(options.package),
+      key.add(options.format);
   key.add(std::size_t(options.certificate)), key.add(std::size_t(options.no_pictures)),
       key.add(std::size_t(view::has_page())), key.add(options.motion.configurations), key.add(options.proof.cells);
   key.add(std::size_t(options.motion.seed)), key.add(std::size_t(options.sampled_pairs)), key.add(options.to);
@@ -255,7 +257,7 @@ std::string package_text(const std::map<path, path>& copies, const std::set<std:
 WriteOptions write_options(const UrdfOptions& options) {
   return {.faces = options.hulls.budget.faces,
           .from = options.hulls.from,
-          .format = options.hulls.format,
+          .format = options.format,
           .package = options.package,
           .to_mjcf = !options.to.empty()};
 }
@@ -455,7 +457,7 @@ void add_urdf(CLI::App& app, Run& run) {
       "What covers each link: one hull, which may be concave; convex pieces, for engines that take only these; or "
       "spheres, for planners that take only these. Spheres also go into ROBOT_spheres.yaml, as cuRobo reads them.");
   add_choice(command, "--from", options->hulls.from, geometry_names(), "Geometry of each link that the hulls enclose.");
-  add_value(command, "--format", options->hulls.format, "stl|obj|glb", "Format of the hulls.")
+  add_value(command, "--format", options->format, "stl|obj|glb", "Format of the hulls.")
       ->transform(one_of("--format", {"stl", "obj", "glb"}))
       ->capture_default_str();
   add_value(command, "--package", options->package, "NAME",

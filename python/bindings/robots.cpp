@@ -120,7 +120,6 @@ LinkHullOptions options_of(const Robot& robot, const py::dict& given) {
   options.budget.spheres = given["spheres"].cast<std::size_t>();
   options.budget.max_distance = given["max_distance"].cast<double>();
   options.budget.padding = given["gap"].cast<double>();
-  options.format = given["format"].cast<std::string>();
   options.tight = given["tight"].cast<bool>();
   options.skip_missing = given["skip_missing"].cast<bool>();
   options.threads = given["threads"].cast<unsigned>();

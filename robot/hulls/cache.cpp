@@ -215,7 +215,7 @@ std::string key_of(const TriangleMesh& triangles, const Budget& budget, const Li
   key.add(std::size_t(budget.collision)), key.add(budget.pieces), key.add(budget.vertices), key.add(budget.spheres);
   for (const std::size_t faces : budget.faces) key.add(faces);
   key.add(budget.max_distance), key.add(budget.padding);
-  key.add(std::size_t(options.tight)), key.add(options.format);
+  key.add(std::size_t(options.tight));
   key.add(triangles);
   return key.text();
 }

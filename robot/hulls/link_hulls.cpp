@@ -12,7 +12,6 @@
 #include "prohull/convex_hull.h"
 #include "prohull/detail/float32_hull.h"
 #include "prohull/error.h"
-#include "prohull/mesh_io.h"
 #include "prohull/sphere_cover.h"
 #include "robot/form_measures.h"
 #include "robot/hulls/cache.h"
@@ -150,7 +149,7 @@ EnclosingOptions enclosing_options(const Budget& budget, const LinkHullOptions& 
   EnclosingOptions enclosing;
   enclosing.hull.relax_guards = true;
   enclosing.hull.threads = options.threads;
-  enclosing.hull.float32_coordinates = stores_float32(mesh_format("hull." + options.format));
+  enclosing.hull.float32_coordinates = true;
   if (budget.max_distance > 0) enclosing.bounds.max_distance = budget.max_distance;
   enclosing.padding = budget.padding;
   enclosing.tight = options.tight;
@@ -185,7 +184,7 @@ void describe_input(const JudgedGeometry& geometry, LinkHulls& result, const Pro
 RepairedMesh build_hulls(const Budget& budget, const LinkHullOptions& options, LinkHulls& result,
                          const Progress& go_on) {
   const EnclosingOptions enclosing = enclosing_options(budget, options, go_on);
-  if (enclosing.hull.float32_coordinates) check_float32_spacing(result.triangles);
+  check_float32_spacing(result.triangles);
   EnclosingHulls made = enclosing_hulls(result.triangles, budget.faces, enclosing);
   for (const EnclosingHull& hull : made.hulls) result.hulls.push_back(link_hull(hull));
   if (!made.is_estimated) result.sealed_volume = made.volume;
@@ -196,7 +195,7 @@ ConvexCover pieces_around(const TriangleMesh& triangles, const Budget& budget, c
                           const Progress& go_on) {
   ConvexCoverOptions how{.max_pieces = budget.pieces, .max_vertices = budget.vertices};
   if (budget.max_distance > 0) how.bounds.max_distance = budget.max_distance;
-  how.float32_coordinates = stores_float32(mesh_format("hull." + options.format));
+  how.float32_coordinates = true;
   how.threads = options.threads, how.progress = go_on;
   return convex_cover(triangles, how);
 }
@@ -232,12 +231,10 @@ RepairedMesh build(const Plan& plan, const LinkHullOptions& options, LinkHulls& 
 }
 
 /// Whether hulls of the cache pass as those of this link.
-bool take_proposal(std::vector<LinkHull> proposal, const Plan& plan, const LinkHullOptions& options, LinkHulls& result,
-                   const Progress& go_on) {
+bool take_proposal(std::vector<LinkHull> proposal, const Plan& plan, LinkHulls& result, const Progress& go_on) {
   const RepairedMesh input = prepared_for_hulls(result.triangles);
   const JudgedGeometry geometry = plan.geometry(result.triangles, input);
-  auto hulls = verified(std::move(proposal), geometry, plan.budget,
-                        stores_float32(mesh_format("hull." + options.format)), go_on);
+  auto hulls = verified(std::move(proposal), geometry, plan.budget, go_on);
   if (!hulls) return false;
   result.hulls = *std::move(hulls);
   describe_input(geometry, result, go_on);
@@ -266,7 +263,7 @@ void add_hulls(const Plan& plan, const LinkHullOptions& options, LinkHulls& resu
   const auto start = std::chrono::steady_clock::now();
   const HullCache cache(options.cache);
   std::optional<std::vector<LinkHull>> kept = cache.find(plan.key);
-  result.from_cache = kept && take_proposal(*std::move(kept), plan, options, result, go_on);
+  result.from_cache = kept && take_proposal(*std::move(kept), plan, result, go_on);
   if (!result.from_cache) {
     const RepairedMesh input = build(plan, options, result, go_on);
     cache.keep(plan.key, result.hulls);

@@ -48,7 +48,6 @@ struct LinkHullOptions {
   std::map<std::string, Budget> budgets = {};  ///< by the name of the link
   bool tight = false;
   bool skip_missing = false;         ///< leave links alone whose meshes are not found, in place of throwing
-  std::string format = "stl";        ///< of the hulls' files: "stl", "obj" or "glb"
   std::filesystem::path cache = {};  ///< a folder for hulls by content and options; empty: none
   unsigned threads = 0;              ///< 0: one for each core
   /// The stage is the name of the link that was finished last; the fraction is that of all links.
@@ -61,8 +60,8 @@ struct LinkHullOptions {
 /// A hull of the meshes of a link; or the convex pieces, or the balls, that cover them.
 struct LinkHull {
   std::size_t target_faces = 0;  ///< 0 of pieces and balls
-  /// In LinkHulls::frame, with the coordinates that the file keeps. Several pieces are appended; each ball has a mesh
-  /// around it.
+  /// In LinkHulls::frame, with float32 coordinates: simulators and planners read no others, of an OBJ file either.
+  /// Several pieces are appended; each ball has a mesh around it.
   TriangleMesh mesh = {};
   std::vector<TriangleMesh> pieces = {};  ///< not empty if they were asked for
   std::vector<Ball> balls = {};           ///< likewise
@@ -124,8 +123,9 @@ void check_budgets(const Robot& robot, const LinkHullOptions& options);
 /// number of threads.
 ///
 /// Guaranteed: `verdict` is decided exactly, in this call, by verify_hull or verify_union, from the coordinates of
-/// the hull, which files keep, and the finite triangles of the link. That holds for hulls of the cache too. Throws
-/// InputError: as check_budgets; CannotRead that lists every mesh which was not found, unless skip_missing; Cancelled.
+/// the hull, which files and their readers keep, and the finite triangles of the link. That holds for hulls of the
+/// cache too. Throws InputError: as check_budgets; CannotRead that lists every mesh which was not found, unless
+/// skip_missing; Cancelled.
 std::vector<LinkHulls> link_hulls(const Robot& robot, const LinkHullOptions& options = {});
 
 }  // namespace prohull::robot

@@ -83,17 +83,16 @@ bool keeps_float32(const TriangleMesh& mesh) {
   });
 }
 
-/// Whether a hull is of the kind and of the size that the budget asks for.
-bool is_as_asked(const LinkHull& hull, const Budget& budget, bool float32) {
-  const auto keeps = [&](const TriangleMesh& mesh) { return !float32 || keeps_float32(mesh); };
+/// Whether a hull is of the kind and of the size that the budget asks for, with float32 coordinates.
+bool is_as_asked(const LinkHull& hull, const Budget& budget) {
   switch (budget.collision) {
     case Collision::Hull:
-      return hull.pieces.empty() && hull.balls.empty() && keeps(hull.mesh) &&
+      return hull.pieces.empty() && hull.balls.empty() && keeps_float32(hull.mesh) &&
              (!hull.target_reached || budget.max_distance > 0 || hull.mesh.face_count() <= hull.target_faces);
     case Collision::Convex:
       return !hull.pieces.empty() && hull.pieces.size() <= budget.pieces && hull.balls.empty() &&
              std::ranges::all_of(hull.pieces, [&](const TriangleMesh& piece) {
-               return keeps(piece) && piece.vertex_count() <= budget.vertices && signed_volume(piece) >= 0;
+               return keeps_float32(piece) && piece.vertex_count() <= budget.vertices && signed_volume(piece) >= 0;
              });
     case Collision::Spheres:
       return !hull.balls.empty() && hull.balls.size() <= budget.spheres && hull.pieces.empty() &&
@@ -150,10 +149,10 @@ InsideVolume sealed_volume(const JudgedGeometry& geometry, std::span<const LinkH
 }
 
 std::optional<std::vector<LinkHull>> verified(std::vector<LinkHull> proposal, const JudgedGeometry& geometry,
-                                              const Budget& budget, bool float32, const Progress& go_on) {
+                                              const Budget& budget, const Progress& go_on) {
   if (!std::ranges::equal(proposal, targets_of(budget), {}, &LinkHull::target_faces)) return std::nullopt;
   for (LinkHull& hull : proposal) {
-    if (!is_as_asked(hull, budget, float32)) return std::nullopt;
+    if (!is_as_asked(hull, budget)) return std::nullopt;
     try {
       judge(hull, geometry, budget, go_on);
     } catch (const InputError&) {  // it bounds no solid

@@ -39,9 +39,8 @@ void judge(LinkHull& hull, const JudgedGeometry& geometry, const Budget& budget,
 InsideVolume sealed_volume(const JudgedGeometry& geometry, std::span<const LinkHull> hulls, const Progress& go_on);
 
 /// What is left of a proposal: all hulls, judged; nullopt if one of them is not as the budget asks, is not certified,
-/// or is not within the bounds that its construction claims. `float32` says that files keep coordinates in single
-/// precision.
+/// has other coordinates than float32, or is not within the bounds that its construction claims.
 std::optional<std::vector<LinkHull>> verified(std::vector<LinkHull> proposal, const JudgedGeometry& geometry,
-                                              const Budget& budget, bool float32, const Progress& go_on);
+                                              const Budget& budget, const Progress& go_on);
 
 }  // namespace prohull::robot

@@ -37,7 +37,7 @@ struct RobotFiles {
 struct WriteOptions {
   std::vector<std::size_t> faces{500};  ///< Budget::faces of the robot; each set of hulls is named by one
   Geometry from = Geometry::Visual;     ///< as LinkHullOptions::from
-  std::string format = "stl";           ///< as LinkHullOptions::format
+  std::string format = "stl";           ///< of the hulls' files: "stl", "obj" or "glb"
   /// The package that the new files make up, with a package.xml and copies of what the robot names; URIs begin with
   /// package://PACKAGE/. Empty: no package, and URIs are relative paths.
   std::string package;

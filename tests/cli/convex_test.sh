@@ -106,6 +106,7 @@ limits() {
 }
 limits physx 64 255
 says out "for physx" "64 vertices (limit 64) and 124 polygons (limit 255)"
+is "for physx: float32 coordinates" grep -aq "property float x" e_01.ply
 limits physx-gpu 33 64
 expect 0 "for unity" $prohull convex ball.stl --pieces 1 --vertices 1000 --for unity -o e.obj --report e.json
 says out "for unity" "128 vertices and 252 polygons (limit 255)"

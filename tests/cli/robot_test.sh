@@ -147,6 +147,7 @@ expect 0 "one thread" $urdf -o one $small --no-cache --threads 1
 is "one thread makes the same hulls" diff -r one/meshes made/deep/meshes
 expect 0 "OBJ and a package" $urdf -o three_safe $small --format obj --package three_safe
 says three_safe/robot.urdf "a package" 'package://three_safe/meshes/collision/base.obj'
+says three_safe/report.json "OBJ has the float32 hulls of STL" '"from_cache": true'
 says out "a package" "copies for the package: 2 files"
 expect 0 "a package is found" $prohull urdf three_safe/robot.urdf --check
 

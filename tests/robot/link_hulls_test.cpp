@@ -290,7 +290,6 @@ TEST_F(LinkHullsTest, HaveAKeyOfAllThatTheyAreMadeFrom) {
   change("spheres", [&] { options_.budget.spheres = 65; });
   change("max_distance", [&] { options_.budget.max_distance = 0.1; });
   change("padding", [&] { options_.budget.padding = 0.1; });
-  change("format", [&] { options_.format = "obj"; });
   change("tight", [&] { options_.tight = true; });
   options_.threads = 3;
   EXPECT_EQ(key(), before);
