@@ -129,7 +129,8 @@ def build_robots(client: "distributed.Client", files: Union[Sequence[Path], Mapp
     """Builds certified hulls of many robots, each into a folder of `out`, and writes to robots.csv what became of each.
 
     Guaranteed: there is a row for each robot, in the order given, whatever happens to robots and workers. A robot is
-    written only if all of its hulls are certified. Hulls of an earlier run are kept in the folder `cache`.
+    written only if all of its hulls are certified and all shapes of its links are read; `message` names links that were
+    skipped, as `skip_missing` or a budget asks. Hulls of an earlier run are kept in the folder `cache`.
 
     client: of a cluster whose workers see all files by the same paths.
     files: paths of robots whose names without suffix are distinct; or a dictionary of paths by name.
@@ -437,7 +438,7 @@ def _jobs(named: dict[str, Any], out: pathlib.Path, suffix: str, options: dict[s
         try:
             is_path = _is_path(mesh)
             mesh = os.path.abspath(mesh) if is_path else mesh_of(mesh, keep_non_finite=True)
-            made_from = {"options": json.loads(json.dumps(options, default=repr)),
+            made_from = {"version": prohull.__version__, "options": json.loads(json.dumps(options, default=repr)),
                          "mesh": {"path": mesh, **_state(mesh)} if is_path else {"digest": _digest(mesh)}}
             jobs.append(_Job(name, mesh, str(out / (name + suffix)), options, made_from))
         except Exception as error:
@@ -481,7 +482,7 @@ def _row_of(job: Any, build: Callable[[Any], _AnyRow], row: type[_AnyRow]) -> _A
 
 
 def _finished(job: _Job) -> Optional[Row]:
-    """That of the hull if it is there, and made of this mesh with these options."""
+    """That of the hull if it is there, and made of this mesh with these options by this version."""
     try:
         with open(job.target + ".json") as file:
             record = json.load(file)
@@ -513,8 +514,9 @@ def _built_robot(job: _RobotJob) -> RobotRow:
     start = time.perf_counter()
     hulls = robot.Robot.load(job.path, job.package_paths).hulls(**job.options)
     made = [hull for link in hulls for hull in link.hulls]
-    notes = "; ".join(f"{link.name}: {note}" for link in hulls for hull in link.hulls for note in hull.notes)
-    if not hulls.certified:
+    notes = "; ".join([*(f"{link.name}: left as it is: {link.why}" for link in hulls if link.why),
+                       *(f"{link.name}: {note}" for link in hulls for hull in link.hulls for note in hull.notes)])
+    if not all(hull.certified for hull in made) or any(link.status == "unread" for link in hulls):
         return RobotRow(job.name, "failed", message=f"not certified: {notes}")
     file = next(path for path in hulls.save(job.folder) if os.path.dirname(path) == job.folder)
     return RobotRow(job.name, "built", file, sum(bool(link.hulls) for link in hulls), len(made),

@@ -118,7 +118,7 @@ def test_a_killed_worker_costs_nothing_but_time(client, folder, tmp_path):
 
 
 @needs_dask
-def test_what_is_finished_is_kept(client, folder, tmp_path):
+def test_what_is_finished_is_kept(client, folder, tmp_path, monkeypatch):
     options = dict(target_faces=300, progress=None)
     few = [folder / f"mesh{i}.off" for i in range(3)]
     first = prohull.dask.build_folder(client, few, tmp_path, **options)
@@ -132,6 +132,8 @@ def test_what_is_finished_is_kept(client, folder, tmp_path):
     os.utime(few[0])  # a mesh that changed
     (tmp_path / "mesh1.off.stl").write_text("cut off")  # a hull that did
     os.remove(tmp_path / "mesh2.off.stl.json")  # a run that ended before this one counted
+    assert set(statuses(prohull.dask.build_folder(client, few, tmp_path, **options)).values()) == {"built"}
+    monkeypatch.setattr(prohull, "__version__", "0.0.1")  # an upgrade
     assert set(statuses(prohull.dask.build_folder(client, few, tmp_path, **options)).values()) == {"built"}
     options["target_faces"] = 200
     assert set(statuses(prohull.dask.build_folder(client, few, tmp_path, **options)).values()) == {"built"}
@@ -176,6 +178,12 @@ def test_a_fleet_of_robots(client, tmp_path):
         assert prohull.robot.Robot.load(good.file).check().passes
     with open(out / "robots.csv", newline="") as file:
         assert [row["name"] for row in csv.DictReader(file)] == ["good", "bad"]
+    left, = prohull.dask.build_robots(client, [tmp_path / "bad.urdf"], out, skip_missing=True, progress=None)
+    assert (left.status, left.hulls) == ("built", 0) and "left as it is: " in left.message and "none.ply" in left.message
+    (tmp_path / "odd.xml").write_text('<mujoco><worldbody><body name="a"><geom type="ellipsoid" size="1 2 3"/></body>'
+                                      "</worldbody></mujoco>")
+    odd, = prohull.dask.build_robots(client, [tmp_path / "odd.xml"], out, progress=None)
+    assert odd.status == "failed" and "ellipsoid is not read" in odd.message
     with pytest.raises(prohull.InputError, match="another robot is called good"):
         prohull.dask.build_robots(client, [tmp_path / "good.urdf", tmp_path / "good.sdf"], out)
     with pytest.raises(TypeError, match="paddin"):
