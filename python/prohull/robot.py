@@ -253,8 +253,12 @@ class Hulls(Shown):
 
     @property
     def certified(self) -> bool:
-        """Whether every hull is certified."""
-        return all(hull.certified for link in self.links for hull in link.hulls)
+        """Whether every hull is certified, and no link was left as it is because it was skipped or has unread shapes."""
+        return not self._left and all(hull.certified for link in self.links for hull in link.hulls)
+
+    @property
+    def _left(self) -> list[LinkHulls]:
+        return [link for link in self.links if link.status in ("skipped", "unread")]
 
     def __getitem__(self, name: str) -> LinkHulls:
         return {link.name: link for link in self.links}[name]
@@ -325,9 +329,10 @@ class Hulls(Shown):
         return self.picture() or None
 
     def __repr__(self) -> str:
-        count = sum(len(link.hulls) for link in self.links)
-        return (f"<prohull.robot.Hulls: {self.robot.name}, {_arrays.counted(count, 'hull')}, "
-                f"{'all certified' if self.certified else 'NOT ALL CERTIFIED'}>")
+        made = [hull.certified for link in self.links for hull in link.hulls]
+        left = f", {_arrays.counted(len(self._left), 'link')} left as it was" if self._left else ""
+        return (f"<prohull.robot.Hulls: {self.robot.name}, {_arrays.counted(len(made), 'hull')}"
+                f"{', NOT ALL CERTIFIED' if not all(made) else ', all certified' if made else ''}{left}>")
 
 
 class Robot(Shown):
@@ -381,7 +386,8 @@ class Robot(Shown):
             links.
         cache: a folder that keeps hulls for the next time.
         from_: the geometry that the hulls enclose, "visual" or "collision".
-        format: of the hulls' files, "stl", "obj" or "glb"; hulls for stl and glb have float32 coordinates.
+        format: of the hulls' files, "stl", "obj" or "glb". Hulls have float32 coordinates, which is what simulators and
+            planners read of all of them.
         skip_missing: whether to leave links alone whose meshes are not found.
         threads: the largest number of threads; 0 means one for each core. The hulls do not depend on it.
         progress: called as build() calls it, with the name of the link that was finished last.
@@ -400,7 +406,7 @@ class Robot(Shown):
             raise InputError(f"max_distance={max_distance!r}: expected a number greater than 0, or None for no bound")
         given = {"faces": counts.tolist(), "collision": collision, "pieces": int(pieces), "vertices": int(vertices),
                  "spheres": int(spheres), "gap": _arrays.not_negative("gap", gap),
-                 "max_distance": distance, "tight": bool(tight), "cache": cache, "from": from_, "format": format,
+                 "max_distance": distance, "tight": bool(tight), "cache": cache, "from": from_,
                  "skip_missing": bool(skip_missing), "threads": _arrays.count("threads", threads),
                  "budgets": None if budgets is None else bytes_of(budgets),
                  "budgets_name": "" if budgets is None else os.fspath(budgets)}

@@ -130,6 +130,13 @@ def test_links_get_convex_pieces(robot, tmp_path):
     assert prohull.robot.Robot.load(tmp_path / "convex" / "crane.urdf").check().passes
 
 
+def test_what_was_left_as_it_is_is_not_certified(tmp_path):
+    (tmp_path / "s.urdf").write_text('<robot name="s"><link name="t"><visual><geometry><mesh filename="missing.stl"/>'
+                                     "</geometry></visual></link></robot>")
+    made = prohull.robot.Robot.load(tmp_path / "s.urdf").hulls(skip_missing=True)
+    assert not made.certified and repr(made) == "<prohull.robot.Hulls: s, 0 hulls, 1 link left as it was>"
+
+
 def test_links_get_spheres(robot, tmp_path):
     made = robot.hulls(collision="spheres", spheres=12)
     assert made.certified and made["tool"].hulls == [] and made["base"].hulls[0].pieces == []
