@@ -145,9 +145,10 @@ class RobotSet {
   void require_shapes(const std::string& text, const path& target, const Robot& certified) const {
     const Robot written = read_robot(text, target).robot;
     for (const NewCollision& collision : collisions_) {
-      const std::vector<Shape>&wanted = certified.links[collision.link].collision,
-            &read = written.links.at(collision.link).collision;
-      if (!std::ranges::is_permutation(wanted, read, is_same_shape)) fail_to_write(target);
+      const std::vector<Shape>& wanted = certified.links[collision.link].collision;
+      const std::vector<Shape>& read = written.links.at(collision.link).collision;
+      if (!std::is_permutation(wanted.begin(), wanted.end(), read.begin(), read.end(), is_same_shape))
+        fail_to_write(target);
     }
   }
 
