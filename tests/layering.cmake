@@ -19,7 +19,7 @@ room(parallel  OWNS detail/progress_meter detail/threads                        
 room(mesh      OWNS detail/disjoint_sets detail/finite detail/ids length triangle_mesh detail/vertex_split mesh_report detail/mesh_quality detail/mesh_marks regions detail/symmetry MAY geometry base)
 room(hull      OWNS progressive_hull                                             MAY mesh geometry base)
 room(query     OWNS mesh_query                                                       MAY hull mesh geometry parallel base)
-room(io        OWNS detail/base64 detail/memory mesh_io detail/missing_file hull_file detail/query_io detail/run_program                            MAY hull mesh geometry parallel base
+room(io        OWNS detail/base64 detail/memory mesh_io detail/missing_file detail/percents hull_file detail/query_io detail/run_program                            MAY hull mesh geometry parallel base
                                                                                      prohull/collide prohull/mesh_query)
 room(repair    OWNS detail/openings repair                                              MAY mesh geometry base)
 room(construct OWNS hull_builder tight_hull detail/float32_hull padded_hull detail/mesh_part   MAY hull mesh geometry parallel base)
