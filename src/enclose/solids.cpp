@@ -137,10 +137,10 @@ std::optional<SolidId> Solids::wrap(const WrapKind& kind, double spacing, std::s
   if (options.hull.float32_coordinates)  // the wrap is farther from the triangles than what that moves it
     for (Vec3& p : made.mesh.positions) p = nearest_float32(p);
   std::optional<SolidId> id;
-  if (!request_.is_outer() && made.mesh.face_count() == 0)
+  const bool is_empty = !request_.is_outer() && made.mesh.face_count() == 0;
+  if (is_empty && !request_.is_padded())
     why_not = fmt::format("nothing inside of the mesh is thick enough for a wrap with a spacing of {:.4g}", spacing);
-  else
-    try {
+  if (!is_empty) try {
       ClosedMesh wrapped = closed_mesh(std::move(made.mesh));
       id = add({.source = Source::Wrap,
                 .mesh = std::move(wrapped.mesh),
