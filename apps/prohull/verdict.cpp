@@ -27,8 +27,7 @@ std::string SizeComparison::doubt() const {
   return fmt::format(
       "the {} is {:.4g} times as large as the {}: are their units different? If so, give the original its --unit or "
       "--scale; if not, say --any-scale",
-      is_outer ? "hull" : "original", ratio_,
-      is_outer ? "original" : "hull");
+      is_outer ? "hull" : "original", ratio_, is_outer ? "original" : "hull");
 }
 
 nlohmann::json SizeComparison::facts() const {

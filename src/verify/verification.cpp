@@ -31,7 +31,7 @@ struct UnitPair {
 };
 constexpr std::array kUnitPairs{UnitPair{1000, "metres and the other in millimetres"},
                                 UnitPair{25.4, "inches and the other in millimetres"}};
-constexpr double kAbout = 1.35; ///< a coarse hull is so much larger than what it encloses
+constexpr double kAbout = 1.35;  ///< a coarse hull is so much larger than what it encloses
 
 void note_units(const Box& hull, const Box& original, std::vector<std::string>& notes) {
   const double small = std::min(hull.diagonal(), original.diagonal());

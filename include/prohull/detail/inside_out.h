@@ -12,8 +12,9 @@ struct OutwardSolid {
   std::string turned;  ///< "arm is inside out: it was turned, so that its inside counts as solid"; may be empty
 };
 
-/// Required: the mesh is closed and finite. As exact as turned_outwards, which leaves components that are inside out and cross or
-/// repeat others as they are: here they are turned, too, for what is free of them as solids is free of them as holes.
+/// Required: the mesh is closed and finite. As exact as turned_outwards, which leaves components that are inside out
+/// and cross or repeat others as they are: here they are turned, too, for what is free of them as solids is free of
+/// them as holes.
 OutwardSolid outward_solid(TriangleMesh closed, const std::string& name);
 
 }  // namespace prohull
