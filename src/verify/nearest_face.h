@@ -27,9 +27,10 @@ TriangleMesh scaled(TriangleMesh mesh, double unit);
 DistanceBounds unscaled(const DistanceBounds& bounds, double unit);
 
 /// How far bounds are off that were found in usable units: a closest point is computed from differences, within 16 eps
-/// of the largest coordinate for each of its own (a sum of three with factors in [0, 1]); its distance to p, and parts
-/// cut at rounded points, add as much again.
-inline double rounding_of_distances(double largest_coordinate) { return 64 * 0x1p-53 * largest_coordinate; }
+/// of the largest coordinate for each of its own (a sum of three with factors in [0, 1]), and its distance to p adds as
+/// much again. Each cut of a part at a rounded point adds at most 2 sqrt(3) eps. There is room for 130 of them, one
+/// within the other: 106 halvings, 53 in each direction of a plane, leave no number between corners.
+inline double rounding_of_distances(double largest_coordinate) { return 512 * 0x1p-53 * largest_coordinate; }
 
 /// Of the faces of a mesh, which must outlive it. Distances are rounded.
 class NearestFace {
