@@ -45,9 +45,9 @@ struct UnionVerification : Verdict {
 /// the work is faster where they are. With options.solid_only only the solid of a closed original must be covered.
 ///
 /// Throws InputError if there is no piece, if a piece is not closed, not finite or not a solid (the message has its
-/// number, from 1 on), if the
-/// original is empty; Cancelled. A piece that looks inwards counts as turned, and triangles of the original that are
-/// not finite are left out; `turned_pieces` and `notes` tell. The volume is NaN if a piece is not convex.
+/// number, from 1 on), if the original is empty; Cancelled. A piece that looks inwards counts as turned, and triangles
+/// of the original that are not finite are left out; `turned_pieces` and `notes` tell. The volume is NaN if a piece is
+/// not convex.
 ///
 ///     const UnionVerification found = verify_union(pieces, read_mesh("part.stl"));
 ///     if (!found.certified) std::cout << found.why_not;

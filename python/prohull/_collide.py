@@ -31,9 +31,9 @@ class Distances(NamedTuple):
 class Collider:
     """A mesh made ready for collisions. Built once, it serves every pose, and any number of threads.
 
-    A closed mesh stands for a solid: its faces and what is inside, also if it is inside out. Any other mesh stands for its faces alone. A
-    .phull file stands for the original in it, and only collides(..., conservative=True) asks its coarsest hull; a Hull
-    stands for itself. All methods take these arguments:
+    A closed mesh stands for a solid: its faces and what is inside, also if it is inside out. Any other mesh stands for
+    its faces alone. A .phull file stands for the original in it, and only collides(..., conservative=True) asks its
+    coarsest hull; a Hull stands for itself. All methods take these arguments:
 
     other: a Collider, or what it is made of.
     poses: where `other` is: matrices of shape (n, 4, 4), a rotation and a translation each. One matrix, (4, 4), counts

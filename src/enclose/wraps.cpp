@@ -168,13 +168,14 @@ void Candidates::plan_inner() {
     return moved(0);
   });
   if (bounds_.any()) return plan_loose_wraps();
-  for (const int finer : {1, 2, 4})  // where nothing is thick enough
+  for (const int finer : {1, 2, 4}) {               // where nothing is thick enough
+    if (finer > 1 && request_.is_padded()) return;  // the gap has to be thin beside the spacing
     steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
-      if (finer > 1 && request_.is_padded()) return std::nullopt;  // the gap has to be thin beside the spacing
       if (ranking.has_certified() && (finer > 1 || ranking.best_void() >= -kMuchVoid)) return std::nullopt;
       const auto id = wrap(kWrapInside, spacing_for(kWrapInside) / finer, solids);
       return id ? std::optional(moved(*id)) : std::nullopt;
     });
+  }
 }
 
 }  // namespace prohull

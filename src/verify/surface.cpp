@@ -98,6 +98,8 @@ std::pair<std::vector<std::uint32_t>, std::uint32_t> components(const TriangleMe
   return {std::move(component), count};
 }
 
+enum class Unclear { Stays, Turns };
+
 /// The components of a mesh, and how they face.
 struct Components {
   explicit Components(const TriangleMesh& mesh) {
@@ -108,20 +110,22 @@ struct Components {
   }
 
   Facing facing(FaceId f) const { return orientation.components[of_face[index(f)]]; }
-  bool is_unclear(FaceId f) const { return facing(f) == Facing::Unclear; }
-  bool is_turned(FaceId f) const { return orientation.turn_all != (facing(f) == Facing::InsideOut); }
+  /// `unclear`: what becomes of components that are neither inside out nor a cavity for certain.
+  bool is_turned(FaceId f, Unclear unclear) const {
+    const Facing own = facing(f);
+    const bool turns = own == Facing::InsideOut || (own == Facing::Unclear && unclear == Unclear::Turns);
+    return orientation.turn_all != turns;
+  }
   bool is_inside_out(FaceId f) const { return orientation.inside_out[of_face[index(f)]]; }
 
   std::vector<std::uint32_t> of_face;
   Orientation orientation;
 };
 
-/// Turns the faces for which `is_one` holds.
-template <class Predicate>
-Turned turn(TriangleMesh& mesh, const Components& components, const Predicate& is_one) {
+Turned turn(TriangleMesh& mesh, const Components& components, Unclear unclear = Unclear::Stays) {
   Turned turned;
   for (const FaceId f : mesh.triangles.ids()) {
-    if (!is_one(f)) continue;
+    if (!components.is_turned(f, unclear)) continue;
     auto& t = mesh.triangles[f];
     std::swap(t[1], t[2]);
     if (t[1] == t[2]) continue;
@@ -189,14 +193,13 @@ bool is_one_sheet(const TriangleMesh& mesh) {
 
 Turned turn_outwards(TriangleMesh& mesh, std::string_view name) {
   require_usable(mesh, name);
-  const Components components(mesh);
-  return turn(mesh, components, [&](FaceId f) { return components.is_turned(f); });
+  return turn(mesh, Components(mesh));
 }
 
 std::vector<FaceId> turn_outwards_and_fill(TriangleMesh& mesh, std::string_view name) {
   require_usable(mesh, name);
   const Components components(mesh);
-  turn(mesh, components, [&](FaceId f) { return components.is_turned(f); });
+  turn(mesh, components);
   std::vector<FaceId> kept;
   for (const FaceId f : mesh.triangles.ids())
     if (components.facing(f) != Facing::Cavity) kept.push_back(f);
@@ -213,9 +216,7 @@ OutwardSolid outward_solid(TriangleMesh closed, const std::string& name) {
   TriangleMesh& mesh = solid.mesh;
   const verify::Components components(mesh);
   // What crosses others may be meant as a hole, or as a part that was drawn inside out. Solid holds for both.
-  const std::size_t turned = verify::turn(mesh, components, [&](FaceId f) {
-                               return components.is_turned(f) != components.is_unclear(f);
-                             }).faces;
+  const std::size_t turned = verify::turn(mesh, components, verify::Unclear::Turns).faces;
   if (turned == 0) return solid;
   const bool is_unclear = std::ranges::count(components.orientation.components, Facing::Unclear) > 0;
   solid.turned =

@@ -107,10 +107,12 @@ class TightBuild {
 
   // Collapses outside of the hull, which may do what tight ones may not.
   void build_on() {
-    if (hull_) tight_.mesh = turned_if_inner(hull_->triangle_mesh(), options_.side);
-    if (hull_ && !(signed_volume(tight_.mesh) > 0)) {  // what is left of an inner hull is as thin as rounding
-      tight_.stopped = Stopped::NoLegalCollapse;
-      return;
+    if (hull_) {
+      tight_.mesh = turned_if_inner(hull_->triangle_mesh(), options_.side);
+      if (!(signed_volume(tight_.mesh) > 0)) {  // what is left of an inner hull is as thin as rounding
+        tight_.stopped = Stopped::NoLegalCollapse;
+        return;
+      }
     }
     step_.guards.max_overhang =
         overhang_left(bounding_box(tight_.mesh), bounding_box(mesh_), options_.guards.max_overhang);

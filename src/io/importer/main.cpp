@@ -76,16 +76,17 @@ class FileSystem : public Assimp::DefaultIOSystem {
   FileSystem(const std::string& name, const std::string& content, bool alone)
       : name_(name), content_(content), alone_(alone) {}
 
-  bool Exists(const char* path) const override { return path == name_ || is_other(path); }
+  bool Exists(const char* path) const override { return path == name_ || may_read(path); }
 
   Assimp::IOStream* Open(const char* path, const char* mode) override {
     if (path == name_)
       return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(content_.data()), content_.size());
-    return is_other(path) ? Assimp::DefaultIOSystem::Open(path, mode) : nullptr;
+    return may_read(path) ? Assimp::DefaultIOSystem::Open(path, mode) : nullptr;
   }
 
  private:
-  bool is_other(const char* path) const {
+  /// Another file. Does not return where there may be none.
+  bool may_read(const char* path) const {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) return false;
     if (!alone_) return true;
