@@ -51,7 +51,7 @@ struct EnclosingOptions {
   /// The hull keeps at least this distance from the triangles, in the input's unit; without levels only. An inner hull
   /// leaves out what is thinner than twice of it. Must be less than bounds.max_distance.
   double padding = 0;
-  bool levels = false;  ///< keep the levels of a hull of a wrap too: it then does not move towards the triangles
+  bool levels = false;  ///< keep the levels, whatever they are of: the hull then does not move towards the triangles
   Repair repair = Repair::Auto;
   bool keep_cavities = false;  ///< keep components that lie inside of others; inner hulls always do
   OpenShells open_shells = OpenShells::Close;
@@ -78,9 +78,8 @@ struct EnclosingHull {
   std::vector<std::string> notes;  ///< sentences for the user: why something is not as asked for, and what to look at
 
   std::size_t solid = 0;  ///< it was built from EnclosingHulls::solids[solid]
-  /// The levels, with this hull as their base mesh (before it was rounded to float32). Empty for tight hulls. Empty
-  /// for hulls of wraps, and for those with further collapses within a bound of the distance, unless
-  /// EnclosingOptions::levels kept them.
+  /// The levels, with this hull as their base mesh (before it was rounded to float32). Empty for tight hulls, and for
+  /// others that moved after their last collapse, unless EnclosingOptions::levels kept them.
   std::optional<ProgressiveHull> levels;
   RefusalCounts refusals, blocked;               ///< as in HullResult
   unsigned relaxed_guards = 0;                   ///< as in HullResult; 0 of a finer level, or where nothing collapsed
@@ -156,11 +155,11 @@ RepairedMesh prepared_for_hulls(TriangleMesh triangles, const EnclosingOptions& 
 ///  1. The repaired input, with caps on its openings, if that closes it. Where few triangles are left uncovered, as
 ///  those
 ///     of folds, vertices of the hull are lifted over them. Where that does not help, the folds of the input are
-///     covered first: edges around them are collapsed.
+///     covered first: edges around them are collapsed. Where the hull has much void, its vertices move back towards
+///     the triangles in the end.
 ///  2. The convex hull of the input.
 ///  3. Wraps, whose grid fits the number of faces. The vertices of such a hull, and of one of the convex hull, move
-///  back
-///     towards the triangles in the end.
+///     back, too.
 /// A source is left out if it cannot win: the second if the convex hull is larger than the best hull, the third if the
 /// best hull is nearly as small as the solid. With `bounds` the first is always tried, as levels, and by collapses each
 /// of which keeps HullBounds::max_distance (HullOptions::tolerances). Wraps have a spacing of half of that, or less; of

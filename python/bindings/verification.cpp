@@ -73,8 +73,9 @@ py::dict verify(const Hull& hull, const TriangleMesh& original, const py::object
   return facts_of(found, options.gap);
 }
 
-py::tuple distance(const TriangleMesh& from, const TriangleMesh& to, double relative_gap, const py::object& progress) {
-  const DistanceBounds bounds = watched(progress, DistanceOptions{.relative_gap = relative_gap},
+py::tuple distance(const TriangleMesh& from, const TriangleMesh& to, double relative_gap, double decides,
+                   const py::object& progress) {
+  const DistanceBounds bounds = watched(progress, DistanceOptions{.relative_gap = relative_gap, .decides = decides},
                                         [&](const auto& how) { return distance_bounds(from, to, how); });
   return py::make_tuple(bounds.lower, bounds.upper, point_of(bounds.farthest));
 }

@@ -84,7 +84,7 @@ def build(mesh: Any, faces: Any = None, target_faces: Any = None, *,  # type: ig
     tight: whether to move vertices towards the mesh between collapses. This leaves far less void, takes some 4 times as
         long (1.5 to 14 times at 100 faces), and keeps no levels.
     levels: whether to keep levels whatever the source is. Vertices then do not move after the last collapse, neither
-        back towards the mesh nor over its folds.
+        back towards the mesh nor over its folds, and the hull may have much more void.
     max_distance: largest distance of a point of the hull from the mesh, at least 0, said as gap is. It is proven.
         The hull is the coarsest one found, of at least target_faces faces, that keeps this bound and the next.
     max_void_percent: largest void, in per cent of the mesh's volume, at least 0.

@@ -95,7 +95,7 @@ class Hull(Mesh):
 
         A hull that was built with levels=True has levels. A tight hull has none, nor has one with a gap. Others have
         none if their vertices were moved after the last collapse, as of a wrap or a convex solid, where a hull was
-        lifted over folds, and of some inner hulls.
+        lifted over folds, and where there was much void.
         """
         if self._levels is None:
             return range(0)
@@ -208,10 +208,11 @@ class Hull(Mesh):
         """No point of the hull is farther than this from the finite triangles of the mesh and from what closes its
         openings, in the mesh's unit: proven. Of a hull that was loaded, the mesh is the finest level.
 
-        At most 1 % more than the true distance, unless finding it takes too long. Computed when it is first asked for.
+        At most 1 % more than the true distance, or than max_distance if that was kept, unless finding it takes too long. Computed when it is first asked for.
         """
         if self._distance is None:
-            self._distance = _prohull.distance(self._core, self._measured, 0.01, None)[1]
+            decides = self._bounds[2] if self._bounds else 0  # so that it is no more than a bound that is kept
+            self._distance = _prohull.distance(self._core, self._measured, 0.01, decides, None)[1]
         return self._distance
 
     @property

@@ -162,5 +162,5 @@ def distance_bounds(from_: MeshLike, to: MeshLike, *, relative_gap: float = 0.01
     Raises InputError if a mesh is empty or not finite, and for another relative_gap.
     """
     gap = _arrays.not_negative("relative_gap", relative_gap)
-    lower, upper, _ = _prohull.distance(mesh_of(from_)._core, mesh_of(to)._core, gap, progress)
+    lower, upper, _ = _prohull.distance(mesh_of(from_)._core, mesh_of(to)._core, gap, 0, progress)
     return lower, upper

@@ -14,7 +14,9 @@ def test_a_hull_is_certified_and_says_how_it_came_about(pony):
     hull = prohull.build(pony.vertices, pony.faces, target_faces=500)
     assert hull.certified and hull.target_reached and hull.within_bounds
     assert len(hull.faces) == 500
-    assert hull.side == "outer" and hull.proof == "replay" and hull.target_faces == 500
+    assert hull.side == "outer" and hull.proof == "enclosure" and hull.target_faces == 500
+    with_levels = prohull.build(pony, 500, levels=True)
+    assert with_levels.proof == "replay" and 0 < hull.void_ratio < with_levels.void_ratio  # levels do not move
     assert 0 < hull.void_ratio == hull.volume / pony.volume - 1
     assert sum(hull.refusals.values()) > 0 and set(hull.refusals) <= {
         "link_condition", "valence", "no_room_outside", "certificate", "compactness", "normal_deviation",
@@ -473,7 +475,7 @@ def test_a_mesh_that_is_not_symmetric_is_refused():
 
 
 def test_the_verdict_is_that_of_verify(pony, tmp_path):
-    hull = prohull.build(pony, 300)
+    hull = prohull.build(pony, 300, levels=True)
     assert hull.verdict and hull.verdict is hull.verdict and hull.verdict.original_closed
     assert hull.verdict.void_ratio == pytest.approx(hull.void_ratio)
     assert hull.level(600).verdict.void_ratio < hull.verdict.void_ratio

@@ -31,6 +31,7 @@ class Candidates {
 
   void plan_volume();
   void plan_mesh();
+  void plan_moved_mesh();
   void plan_finer_levels();
   void plan_unfolded_mesh();
   void plan_within_of_mesh();
@@ -50,7 +51,6 @@ class Candidates {
   void plan_inner_with_padding();
   void plan_tight();
   std::optional<Candidate> follow_up(const Ranking& ranking, const Solids& solids) const;
-  static bool has_very_much_void(const Ranking& ranking);
   bool are_wraps_stuck(const Ranking& ranking) const;
   bool is_worth_a_wrap(const Ranking& ranking, const Solids& solids, bool is_first) const;
   bool is_worth_a_polytope(const Ranking& ranking, Solids& solids) const;
@@ -59,6 +59,7 @@ class Candidates {
   bool may_be_better(const LooseWrap& next, const Ranking& ranking, const Solids& solids) const;
   std::optional<Candidate> loose_wrap(const LooseWrap& next, const Ranking& ranking, Solids& solids) const;
   bool has_few_faces(const Ranking& ranking) const;
+  bool may_move_mesh() const;
   bool has_too_many_parts(const Solid& solid) const;
   bool is_worth_the_mesh(const Solids& solids) const;
   bool is_worth_a_search(const EnclosingHull& hull) const;

@@ -92,7 +92,10 @@ EnclosingHull built_in_steps(const Making& making) {
   constexpr Step kSteps[]{{1.5, 2, 4}, {1, kRoundsAtTheEnd, 1}};
   const double target = double(making.candidate.target_faces);
   EnclosingHull hull;
-  hull.mesh = making.solid().mesh;
+  hull.mesh = making.solid().source == Source::Mesh
+                  ? making.solids.levels(making.candidate.solid, making.candidate.seed)
+                        .hull.level(std::size_t(std::llround(kSteps[0].faces * target)))
+                  : making.solid().mesh;
   for (const auto& [faces, rounds, stuck] : kSteps) {
     if (!(signed_volume(hull.mesh) > 0)) break;  // an inner hull may vanish
     HullOptions options = making.hull_options();

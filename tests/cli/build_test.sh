@@ -104,7 +104,7 @@ says info.json "report: triangles" '"compactness": {'
 
 expect 0 "formats" $prohull build hull.stl --faces 100 -o out.obj
 gzip -kf rock.ply
-expect 0 "gzip" $prohull build rock.ply.gz --faces 500 -o from_gzip.stl
+expect 0 "gzip" $prohull build rock.ply.gz --faces 500 -o from_gzip.stl --hierarchy from_gzip.phull
 cmp -s from_gzip.stl hull.stl || fail "the same hull from a gzipped file"
 
 # --- GLB and scenes ---

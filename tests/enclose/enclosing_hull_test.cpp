@@ -43,13 +43,24 @@ TriangleMesh without_a_face(TriangleMesh mesh) {
 
 TEST(EnclosingHull, OfAClosedMeshIsThatOfBuildHull) {
   const TriangleMesh mesh = make_sample("asteroid", 2000);
-  const EnclosingHull hull = only(hull_of(mesh, 200));
+  const EnclosingHull hull = only(hull_of(mesh, 200, {.levels = true}));
   EXPECT_EQ(hull.mesh, build_hull(mesh, {.target_faces = 200}).hull.base());
   EXPECT_TRUE(hull.certified);
   EXPECT_EQ(hull.verdict.proof, "replay");
   EXPECT_TRUE(hull.target_reached);
   ASSERT_TRUE(hull.levels);
   EXPECT_EQ(hull.levels->original(), mesh);
+}
+
+TEST(EnclosingHull, OfMuchVoidMovesTowardsTheMesh) {
+  const TriangleMesh mesh = make_sample("asteroid", 2000);
+  for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
+    const EnclosingHull level = only(hull_of(mesh, 200, {.hull = {.side = side}, .levels = true}));
+    const EnclosingHull moved = only(hull_of(mesh, 200, {.hull = {.side = side}}));
+    EXPECT_TRUE(moved.certified && moved.target_reached && !moved.levels);
+    EXPECT_LT(std::abs(moved.void_ratio), 0.9 * std::abs(level.void_ratio));
+  }
+  EXPECT_TRUE(only(hull_of(mesh, 1500)).levels);  // there is little
 }
 
 TEST(EnclosingHull, OfOneBudgetIsTheOnlyOne) {
