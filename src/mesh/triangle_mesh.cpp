@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <utility>
 
 #include "prohull/detail/finite.h"
@@ -61,20 +60,7 @@ TriangleMesh without_unused_vertices(TriangleMesh mesh) {
   return mesh;
 }
 
-TriangleMesh finite_part(const TriangleMesh& mesh) {
-  const TriangleMesh finite = with_finite_faces(mesh);
-  PerVertex<std::optional<VertexId>> renumbered(mesh.vertex_count());
-  TriangleMesh part;
-  for (std::array<VertexId, 3> corners : finite.triangles) {
-    for (VertexId& v : corners) {
-      std::optional<VertexId>& known = renumbered[v];
-      if (!known) known = part.positions.push_back(mesh.positions[v]);
-      v = *known;
-    }
-    part.triangles.push_back(corners);
-  }
-  return part;
-}
+TriangleMesh finite_part(const TriangleMesh& mesh) { return without_unused_vertices(with_finite_faces(mesh)); }
 
 double signed_volume(const TriangleMesh& mesh) {
   const Box box = bounding_box(mesh);

@@ -8,6 +8,7 @@
 
 #include "geometry/usable_size.h"
 #include "prohull/detail/disjoint_sets.h"
+#include "prohull/detail/finite.h"
 #include "prohull/detail/openings.h"
 #include "prohull/detail/text.h"
 #include "prohull/error.h"
@@ -213,10 +214,11 @@ RepairedMesh repaired_mesh(TriangleMesh mesh, const RepairOptions& options) {
   require_faces(mesh);
   RepairedMesh result;
   MeshReport report = result.found = inspect(mesh);
-  if (report.non_finite_vertices > 0) {
+  if (!std::ranges::all_of(mesh.positions, is_finite)) {  // what no face uses, too
     drop_non_finite_faces(mesh, result.repairs);
     if (mesh.face_count() == 0)
       throw InputError(Defect::NonFiniteCoordinate, "no face has finite corners: nothing to enclose");
+    mesh = without_unused_vertices(std::move(mesh));
     report = inspect(mesh);
   }
   require_usable_size(report.box);

@@ -9,6 +9,7 @@
 #include <set>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "geometry/bvh.h"
 #include "geometry/no_index.h"
@@ -16,6 +17,7 @@
 #include "geometry/triangle_intersection.h"
 #include "geometry/winding_number.h"
 #include "prohull/detail/disjoint_sets.h"
+#include "prohull/detail/finite.h"
 #include "prohull/error.h"
 
 namespace prohull {
@@ -180,16 +182,9 @@ bool lies_inside(const Component& inner, Component& outer) {
 }  // namespace
 
 void drop_non_finite_faces(TriangleMesh& mesh, Repairs& repairs) {
-  repairs.dropped_non_finite_faces += keep_faces(mesh, [&](FaceId f) {
-    return std::ranges::all_of(mesh.triangles[f], [&](VertexId v) { return is_finite(mesh.positions[v]); });
-  });
-  PerVertex<VertexId> name(mesh.vertex_count());
-  PerVertex<Vec3> finite;
-  for (const VertexId v : mesh.positions.ids())
-    if (is_finite(mesh.positions[v])) name[v] = finite.push_back(mesh.positions[v]);
-  mesh.positions = std::move(finite);
-  for (auto& corners : mesh.triangles)
-    for (VertexId& v : corners) v = name[v];
+  const std::size_t before = mesh.face_count();
+  mesh = with_finite_faces(std::move(mesh));
+  repairs.dropped_non_finite_faces += before - mesh.face_count();
 }
 
 void weld(TriangleMesh& mesh, Repairs& repairs) {

@@ -13,7 +13,7 @@ namespace prohull {
 /// An empty box is as good as any.
 void require_usable_size(const Box& box);
 
-/// Drops the faces with a corner that is NaN or infinite.
+/// Drops the faces with a corner that is NaN or infinite. Vertices stay, so that numbers of them do.
 void drop_non_finite_faces(TriangleMesh& mesh, Repairs& repairs);
 
 /// Finite vertices at equal positions become one, the first; -0 equals 0. Faces that then have a vertex twice go.

@@ -248,6 +248,14 @@ TEST(Openings, IgnoreWhatIsNotFinite) {
   EXPECT_EQ(lengths(find_openings(ball)), std::vector<std::size_t>{3});
 }
 
+TEST(Caps, AreWhereTheyWereBesideAnUnusedVertexThatIsNotFinite) {
+  const TriangleMesh skirt_of_a_box = skirt({{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}});
+  TriangleMesh mesh;
+  mesh.positions.push_back({std::numeric_limits<double>::quiet_NaN(), 0, 0});
+  append(mesh, skirt_of_a_box);
+  EXPECT_DOUBLE_EQ(closed_by_caps(mesh).volume, closed_by_caps(skirt_of_a_box).volume);
+}
+
 TEST(Caps, HaveTheLeastArea) {
   // A U, whose convex hull is larger, and a saddle, of which two triangulations are possible.
   const TriangleMesh u =
