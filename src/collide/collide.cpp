@@ -75,7 +75,8 @@ class Scene {
 
   /// Faces that have no point in common tell that the surfaces do not meet; only otherwise is that decided first.
   Separation separation(double limit) const {
-    if (const auto apart = separation_of_surfaces(limit, true)) return one_is_inside() ? Separation{} : *apart;
+    if (const auto apart = separation_of_surfaces(limit, true))
+      return !boxes_.are_far_apart() && one_is_inside() ? Separation{} : *apart;
     return collides() ? Separation{} : *separation_of_surfaces(limit, false);
   }
 

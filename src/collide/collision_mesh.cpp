@@ -112,10 +112,11 @@ class UpwardRay {
   /// Whether the start is certainly outside of the box.
   bool starts_outside(const ObbNode& box) const { return !may_meet_part(box, start_, {}); }
 
-  /// False only if the ray meets nothing in the box. Numbers are at most 4, axes are square to each other within 2^-22,
-  /// and the slack is 2^-16.
+  /// False only if the ray meets nothing in the box, of a ray that starts in the root box. That lies within sqrt(3) of
+  /// the center, and all triangles within 1. Numbers are at most 4, axes are square to each other within 2^-22, and the
+  /// slack is 2^-16.
   bool may_meet(const ObbNode& box) const {
-    const Vec3 half_length = direction_ * (1.25 + 2 * slack_);  // of the part of the ray that may meet a box
+    const Vec3 half_length = direction_ * (1.5 + 2 * slack_);  // of the part of the ray that may meet a box
     return may_meet_part(box, start_ + half_length, half_length);
   }
 

@@ -19,7 +19,7 @@ struct CollisionMesh {
   /// surfaces that do not meet.
   bool contains_component(const Pose& pose, const CollisionMesh& other, const Pose& other_pose) const;
 
-  /// Of this solid around a point that is not on its surface. Exact.
+  /// Of this solid around a point in the root box of its tree that is not on its surface. Exact.
   int winding_number(const Pose& pose, const Vec3& point) const;
 
   ObbTree tree;

@@ -147,13 +147,13 @@ class NearSearch {
 
   /// Whether triangle i of a, which is placed as s, and triangle j of b stay apart along the direction.
   bool are_apart_along(std::size_t i, const Triangle& s, std::size_t j, const Triangle& t) const {
-    constexpr double kRelative = 0x1p-44, kLength = 1 + 0x1p-20;  // the direction is shorter
+    constexpr double kRelative = 0x1p-44, kLength = 1 + 0x1p-20;  // the direction is no longer
     const Vec3 drift_s = drift_a_.straight(i), drift_t = drift_b_.straight(j);
     const double end = std::max({drift_s.x, dot(along_, s.b - s.a) + drift_s.y, dot(along_, s.c - s.a) + drift_s.z});
     const double begin = std::min(
         {dot(along_, t.a - s.a) - drift_t.x, dot(along_, t.b - s.a) - drift_t.y, dot(along_, t.c - s.a) - drift_t.z});
     const double size = std::max({norm(s.b - s.a), norm(s.c - s.a), norm(t.a - s.a), norm(t.b - s.a), norm(t.c - s.a)});
-    return begin - end - bend_ - kRelative * size > gap_ * kLength;
+    return begin - end - kRelative * size > (gap_ + bend_) * kLength;
   }
 
   const CollisionMesh &a_, &b_;

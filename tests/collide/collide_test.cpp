@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "collide/collision_mesh.h"
 #include "effort.h"
 #include "geometry/triangle_contact.h"
 #include "meshes.h"
@@ -101,6 +102,23 @@ TEST(Collide, ACavityIsFree) {
   EXPECT_FALSE(collide(hollow, octahedron()));
   EXPECT_TRUE(collide(hollow, octahedron(), at({6, 0, 0}))) << "through the wall of the cavity";
   EXPECT_TRUE(collide(hollow, scaled(octahedron(), 0.1), at({7, 0, 0}))) << "in the wall";
+}
+
+TEST(CollisionMesh, WindsAroundNoCornerOfItsBox) {
+  const CollisionMesh ball(scaled(sphere(3), 0.99));
+  const ObbNode& box = ball.tree.boxes()[0];
+  for (const int x : {-1, 1})
+    for (const int y : {-1, 1})
+      for (const int z : {-1, 1}) {
+        const Vec3 sides{x * box.half[0], y * box.half[1], z * box.half[2]};
+        Vec3 corner;
+        for (int k = 0; k < 3; ++k)
+          corner[k] = box.center[k] + dot(Vec3{box.axes[3 * k], box.axes[3 * k + 1], box.axes[3 * k + 2]}, sides);
+        const Vec3 up = -corner / norm(corner), across = cross(up, {1, 0, 0}) / norm(cross(up, {1, 0, 0}));
+        const Pose through_the_middle{{across, cross(up, across), up}, {}};
+        const Vec3 point = ball.tree.center() + corner * (0.98 / ball.tree.unit());
+        EXPECT_EQ(ball.winding_number(through_the_middle, at_pose(through_the_middle, point)), 0);
+      }
 }
 
 TEST(Collide, AnOpenMeshStandsForItsFaces) {
