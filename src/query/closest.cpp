@@ -19,14 +19,9 @@ struct SeenFace {
 
   SeenFace(const Vec3& p, const Triangle& t) {
     see(p, t, 1, 1);
-    if (reach > kLeastReach && reach < kMostReach) return;
-    if (reach == 0) return;
-    if (reach < 1) {
-      see(p, t, 1, std::ldexp(1, std::min(-std::ilogb(reach), 1000)));
-    } else {
-      const double size = std::max({largest_entry(p), largest_entry(t.a), largest_entry(t.b), largest_entry(t.c)});
-      see(p, t, std::ldexp(1, -std::ilogb(size)), 1);
-    }
+    if (reach == 0 || (reach > kLeastReach && reach < kMostReach)) return;
+    // Differences overflow, and are quartered before, only where nothing near the least numbers matters.
+    see(p, t, reach < 0x1p1000 ? 1 : 0.25, std::ldexp(1, std::clamp(-std::ilogb(reach), -1000, 1000)));
   }
 
   /// From corner i to corner j.
@@ -83,11 +78,14 @@ struct Measured {
   double distance, lower, upper;
 };
 
-Measured measured_to_corner(const SeenFace& seen, const Vec3& away) {
-  const double distance = norm(away);
-  // Of the distance only the difference and norm() are rounded; 2^-500 stands for squares that underflow.
-  const double upper = away == Vec3{} ? 0 : distance * (1 + 16 * line_filter::kEpsilon) + 0x1p-500;
-  return {{}, distance, separation(away, seen) - error_bound(seen), upper};
+/// `away` may vanish by underflow where the point is not at the corner.
+Measured measured_to_corner(const SeenFace& seen, const Vec3& away, bool is_there) {
+  if (is_there) return {};
+  // Of the distance only the difference and norm() are rounded; 2^-500 stands for squares that underflow, 2^-1072 for
+  // differences.
+  const double distance = norm(away), upper = std::min(distance * (1 + 16 * line_filter::kEpsilon) + 0x1p-500,
+                                                       2 * largest_entry(away) + 0x1p-1072);
+  return {{}, std::min(distance, upper), separation(away, seen) - error_bound(seen), upper};
 }
 
 Measured measured_inside(const SeenFace& seen, const Foot& foot) {
@@ -115,8 +113,10 @@ std::optional<ClosestPoint> distance_to(FaceId face, const Triangle& triangle, c
   const double box_distance = distance_of_box(seen);
   if (box_distance > limit * seen.scale) return std::nullopt;
   const Foot foot = foot_on_triangle(seen.away[0], seen.away[1], seen.away[2], seen.sides[0], seen.sides[1]);
-  Measured m = foot.on == Foot::On::Corner ? measured_to_corner(seen, seen.away[static_cast<std::size_t>(foot.from)])
-                                           : measured_inside(seen, foot);
+  const Vec3& from = corner(triangle, foot.from);
+  Measured m = foot.on == Foot::On::Corner
+                   ? measured_to_corner(seen, seen.away[static_cast<std::size_t>(foot.from)], from == point)
+                   : measured_inside(seen, foot);
   m.lower = std::min(std::max(m.lower, box_distance), m.distance);
   if (seen.scale != 1) {  // beyond the normal numbers scaling does round
     constexpr auto kLeast = std::numeric_limits<double>::min(), kMost = std::numeric_limits<double>::max();
@@ -125,7 +125,7 @@ std::optional<ClosestPoint> distance_to(FaceId face, const Triangle& triangle, c
     m.distance = m.distance / seen.scale;
     m.from_corner = m.from_corner / seen.scale;
   }
-  return ClosestPoint{face, corner(triangle, foot.from) + m.from_corner, m.distance, m.lower, m.upper};
+  return ClosestPoint{face, from + m.from_corner, m.distance, m.lower, m.upper};
 }
 
 void ClosestCollector::offer(FaceId face, const Triangle& triangle) {

@@ -191,7 +191,7 @@ namespace {
 /// as short (wide_line.h).
 Ray ray_to_nearest_side(const Vec3& point, const Box& box) {
   const Vec3 size = box.max - box.min;
-  const double length = std::max({size.x, size.y, size.z, 1e-300});
+  const double length = std::clamp(std::max({size.x, size.y, size.z}), 1e-300, std::numeric_limits<double>::max());
   Ray ray{point, {-length, 0, 0}};
   double nearest = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis)

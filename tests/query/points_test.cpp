@@ -78,6 +78,12 @@ TEST(Contains, IsAWindingNumberAboveZero) {
   }
 }
 
+TEST(Contains, InABoxAsWideAsNumbersGo) {
+  MeshQuery query{QueryIndex(scaled(box({-1, -1, -1}, {1, 1, 1}), 1.7e308))};
+  EXPECT_TRUE(query.contains({1e308, 1e300, -1}));
+  EXPECT_FALSE(query.contains({1.75e308, 0, 0}));
+}
+
 TEST(Contains, IsSaidByEveryEngineAlsoOnTheSurface) {
   for (const auto& [name, mesh] : closed_meshes()) {
     MeshQuery query{QueryIndex(mesh)}, brute{QueryIndex(mesh, Engine::Brute)};
@@ -163,6 +169,13 @@ TEST(ClosestPoint, IsWithinItsBoundsWhateverTheSizeOfCoordinates) {
   expect_bounds(scaled(mesh, 1e-100), some_points(mesh));
   const TriangleMesh far_away = moved(mesh, {1e6, -3e5, 0.1});
   expect_bounds(far_away, some_points(far_away));
+}
+
+TEST(ClosestPoint, OfAPointJustBesideACornerOfAHugeFaceIsWithinItsBounds) {
+  for (const double size : {1e100, 1e250, 1e305})
+    for (const double away : {1e-300, 1e-240, 1e-80})
+      expect_bounds(make({{size, 0, 0}, {0, size, 0}, {0, 0, size}}, {{0, 1, 2}}), {{size, -away, 0}, {size, 0, away}});
+  expect_bounds(make({{1e308, 0, 0}, {1e308, 1e61, 0}, {1e308, 0, 1e61}}, {{0, 1, 2}}), {{1e308, -1e61, 1e60}});
 }
 
 TEST(ClosestPoint, OfAPointFarAwayIsWithinItsBounds) {
