@@ -239,7 +239,7 @@ void add_guards(CLI::App& command, BuildOptions& options) {
   command.add_flag("!--keep-guards", hull.relax_guards,
                    "Keep the limits of the shape that follow. Otherwise they are relaxed in four steps where the "
                    "number of faces cannot be reached.");
-  add_number(command, "--max-valence", hull.guards.max_valence, {3, 1e6},
+  add_number(command, "--max-valence", hull.guards.max_valence, {3, 1000},
              "Largest valence of a new vertex. The valence of a vertex is the number of faces around it.");
   add_number(command, "--min-compactness-ratio", hull.guards.min_compactness_ratio, {0, 1},
              "Least compactness of the worst face that a collapse leaves, divided by that of the worst face before, 0 "

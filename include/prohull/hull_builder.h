@@ -80,7 +80,7 @@ std::string describe_refusals(const RefusalCounts& counts);
 /// Limits for the faces that a collapse makes; a collapse beyond them is refused (P&T 3.1.4). The *compactness* of a
 /// triangle is 4 sqrt(3) area / (sum of the squared edges): 1 if it is equilateral, near 0 if it is thin.
 struct ShapeGuards {
-  unsigned max_valence = 12;           ///< faces around the new vertex, at most; at least 3
+  unsigned max_valence = 12;           ///< faces around the new vertex, at most; in [3, 1000]
   double min_compactness_ratio = 0.8;  ///< least compactness after the collapse / before it, at least; in [0, 1]
   double sufficient_compactness =
       0.15;  ///< a face this compact is accepted whatever the ratio is; Strategy::Lazy only; in [0, 1]

@@ -46,6 +46,8 @@ class ProgressiveHull {
                   std::vector<VertexId> base_corners, std::vector<VertexSplit> splits);
 
   static constexpr VertexId kAbsent{0xffffffff};
+  /// Of a vertex that a split replaces. All work on a hull takes time in proportion to these valences.
+  static constexpr unsigned kMostValence = 1024;
 
   HullSide side() const { return side_; }
   FinestLevel finest_level() const { return finest_level_; }

@@ -114,7 +114,7 @@ def build(mesh: Any, faces: Any = None, target_faces: Any = None, *,  # type: ig
         "by-strategy" refuses them with "lazy", and allows them with the paper's two.
     relax_guards: whether the five guards that follow give way, in four steps, where target_faces is not reached
         otherwise.
-    max_valence: largest number of faces around a new vertex, at least 3.
+    max_valence: largest number of faces around a new vertex, in [3, 1000].
     min_compactness_ratio: smallest compactness of a triangle after a collapse, relative to before, in [0, 1].
         Compactness is 1 for an equilateral triangle, and 0 for one without area.
     sufficient_compactness: compactness that is enough whatever it was before, in [0, 1]; with "lazy" only.

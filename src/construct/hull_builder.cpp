@@ -24,7 +24,9 @@ void check(const HullOptions& options) {
   require(options.side == HullSide::Outer || options.self_intersections != SelfIntersections::Allowed,
           "self-intersections cannot be allowed: an inner hull that intersects itself could stick out of the mesh");
   const ShapeGuards& guards = options.guards;
-  require(guards.max_valence >= 3, "max_valence must be at least 3");
+  constexpr unsigned kMost = 1000;
+  static_assert(kMost + 2 <= ProgressiveHull::kMostValence, "a symmetric pair of collapses goes beyond it by two");
+  require(guards.max_valence >= 3 && guards.max_valence <= kMost, "max_valence must be in [3, 1000]");
   require(guards.min_compactness_ratio >= 0 && guards.min_compactness_ratio <= 1,
           "min_compactness_ratio must be in [0, 1]");
   require(guards.sufficient_compactness >= 0 && guards.sufficient_compactness <= 1,

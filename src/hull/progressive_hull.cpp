@@ -151,6 +151,9 @@ std::optional<std::string> first_defect(const ProgressiveHull& hull) {
   HalfEdgeMesh mesh(hull.positions(), hull.base_corners());
   for (std::size_t i = hull.splits().size(); i-- > 0;) {
     const VertexId s = hull.made_vertex(i);
+    if (mesh.valence(s) > ProgressiveHull::kMostValence)
+      return fmt::format("split {} replaces a vertex of {} faces, and may only replace one of at most {}", i,
+                         mesh.valence(s), ProgressiveHull::kMostValence);
     if (!is_possible(mesh, s, hull.splits()[i])) return fmt::format("split {} does not fit the mesh it refines", i);
     mesh.split(s, hull.splits()[i]);
   }

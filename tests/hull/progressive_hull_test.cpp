@@ -9,6 +9,7 @@
 
 #include "effort.h"
 #include "hull/parts.h"
+#include "mesh/half_edge_mesh.h"
 #include "meshes.h"
 #include "prohull/hull_builder.h"
 #include "prohull/mesh_report.h"
@@ -128,6 +129,22 @@ TEST(FirstDefect, NamesASplitThatCannotBeMade) {
   const auto present = std::ranges::find_if(corners, [](VertexId v) { return v != ProgressiveHull::kAbsent; });
   EXPECT_EQ(defect([&](VertexSplit& s) { s.od = static_cast<std::uint32_t>(present - corners.begin()); }), refused)
       << "the face exists already";
+}
+
+TEST(FirstDefect, RefusesSplitsOfAHub) {
+  const auto defect = [](std::uint32_t rim) {
+    HalfEdgeMesh mesh(meshes::bipyramid(rim));
+    const HalfEdgeId at_hub = mesh.valence(mesh.tail(HalfEdgeId{0})) == rim ? HalfEdgeId{0} : HalfEdgeId{2};
+    HullParts parts = parts_of(meshes::bipyramid(rim));
+    parts.splits = {mesh.collapse(at_hub, {})};
+    parts.positions = mesh.positions();
+    parts.corners.clear();
+    for (std::uint32_t f = 0; f < mesh.face_id_count(); ++f)
+      for (const VertexId v : mesh.corners(FaceId{f})) parts.corners.push_back(v);
+    return first_defect(parts.joined());
+  };
+  EXPECT_EQ(defect(1024), std::nullopt);
+  EXPECT_EQ(defect(1025), "split 0 replaces a vertex of 1025 faces, and may only replace one of at most 1024");
 }
 
 // Whatever the record: either it is refused, or all its levels are closed manifolds.
