@@ -398,7 +398,12 @@ static double value(File* f, Type type) {
   uint64_t bits = 0;
   double x;
   float y;
-  if (f->encoding == ASCII) return type == FLOAT ? (float)decimal(f, 1) : decimal(f, 1);
+  if (f->encoding == ASCII) {
+    next_word(f, 1);
+    const char* const word = (char*)f->at;
+    x = decimal(f, 1);
+    return type == FLOAT ? strtof(word, NULL) : x;
+  }
   if (f->end - f->at < size) unreadable(f, "the file ends here");
   for (int i = 0; i < size; ++i) bits |= (uint64_t)*f->at++ << 8 * (f->encoding == BIG ? size - 1 - i : i);
   const uint32_t word = (uint32_t)bits;

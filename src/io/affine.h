@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "prohull/geometry.h"
 
 namespace prohull {
@@ -16,7 +19,14 @@ struct Affine {
     return {linear(inner.x), linear(inner.y), linear(inner.z), (*this)(inner.origin)};
   }
   /// Whether it turns the outside of a mesh inwards, so that its faces have to be reversed.
-  bool mirrors() const { return dot(cross(x, y), z) < 0; }
+  bool mirrors() const {
+    const auto of_length_1 = [](const Vec3& v) {  // about, by a power of 2: products do not underflow
+      int exponent = 0;
+      std::frexp(std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}), &exponent);
+      return Vec3{std::ldexp(v.x, -exponent), std::ldexp(v.y, -exponent), std::ldexp(v.z, -exponent)};
+    };
+    return dot(cross(of_length_1(x), of_length_1(y)), of_length_1(z)) < 0;
+  }
 };
 
 }  // namespace prohull

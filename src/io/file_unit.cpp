@@ -29,16 +29,27 @@ double length_of_unit(std::string_view name) {
   return known == kUnits.end() ? 0 : known->second;
 }
 
-/// What `unit` says in the first tag of that name; empty if it is not there.
-std::string_view said_unit(std::string_view xml, std::string_view tag) {
-  std::size_t begin = xml.find(tag);
-  if (begin == xml.npos) return {};
-  std::string_view attributes = xml.substr(begin, xml.find('>', begin) - begin);
-  for (const std::string_view blank : {" ", "\t", "\n", "\r"}) {
-    const std::size_t at = attributes.find(std::string(blank) + "unit=");
-    if (at == attributes.npos) continue;
-    std::string_view value = attributes.substr(at + 6);
-    return value.empty() ? value : value.substr(1, value.find(value[0], 1) - 1);
+/// The first tag of an element, from its name on: that of the root.
+std::string_view root_tag(std::string_view xml) {
+  for (std::size_t at = xml.find('<'); at != xml.npos; at = xml.find('<', at + 1)) {
+    xml.remove_prefix(at);
+    const bool is_comment = xml.starts_with("<!--");
+    if (!is_comment && !xml.starts_with("<?") && !xml.starts_with("<!")) return xml.substr(1, xml.find('>') - 1);
+    at = xml.find(is_comment ? "-->" : ">");
+  }
+  return {};
+}
+
+/// What `unit` says in the root, an element of that name in any namespace; empty if it is not there.
+std::string_view said_unit(std::string_view xml, std::string_view element) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  const std::string_view tag = root_tag(xml), name = tag.substr(0, tag.find_first_of(kBlanks));
+  if (name.substr(name.find(':') + 1) != element) return {};
+  for (std::size_t at = name.size(); (at = tag.find("unit", at)) != tag.npos; at += 4) {
+    const std::size_t quote = tag.find_first_not_of(" \t\r\n=", at + 4);
+    const bool is_unit =
+        kBlanks.find(tag[at - 1]) != tag.npos && quote != tag.npos && (tag[quote] == '"' || tag[quote] == '\'');
+    if (is_unit) return tag.substr(quote + 1, tag.find(tag[quote], quote + 1) - quote - 1);
   }
   return {};
 }
@@ -57,8 +68,8 @@ std::string xml_in(std::string_view content, const std::filesystem::path& name, 
 FileUnit unit_of_file(std::string_view content, const std::filesystem::path& name) {
   const std::string suffix = lower_case_extension(without_gz(name));
   if (suffix == ".dae" || suffix == ".zae") return {1, true};  // prohull-import makes metres of them
-  if (suffix == ".3mf") return {length_of_unit(said_unit(xml_in(content, name, ".model"), "<model")), true};
-  if (suffix == ".amf") return {length_of_unit(said_unit(xml_in(content, name, ".amf"), "<amf")), true};
+  if (suffix == ".3mf") return {length_of_unit(said_unit(xml_in(content, name, ".model"), "model")), true};
+  if (suffix == ".amf") return {length_of_unit(said_unit(xml_in(content, name, ".amf"), "amf")), true};
   if (suffix == ".gltf" || is_glb(content)) return {1, false};
   return {};
 }

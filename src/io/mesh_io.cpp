@@ -111,13 +111,22 @@ const FormatTraits& format_of(std::string_view content, const std::filesystem::p
                                name.string()));
 }
 
+/// How much of a file is text: of a binary PLY its header, and the CR behind it.
+std::size_t text_size(std::string_view content) {
+  if (is_binary_stl(content)) return 0;
+  constexpr std::string_view kEnd = "\rend_header\r";
+  const std::size_t end = content.starts_with("ply\r") ? content.find(kEnd) : content.npos;
+  const bool is_binary_ply = end != content.npos && content.substr(0, end).find("\rformat binary") != content.npos;
+  return is_binary_ply ? end + kEnd.size() : content.size();
+}
+
 /// Texts of old systems end their lines with CR alone; others are left as they are.
 std::optional<std::string> with_line_feeds(std::string_view content) {
-  if (content.find('\n') != content.npos || content.find('\r') == content.npos) return {};
-  if (content.find('\0') != content.npos || is_binary_stl(content)) return {};
-  std::string text(content);
-  std::replace(text.begin(), text.end(), '\r', '\n');
-  return text;
+  const std::string_view text = content.substr(0, text_size(content));
+  if (text.find('\n') != text.npos || text.find('\r') == text.npos || text.find('\0') != text.npos) return {};
+  std::string lines(content);
+  std::replace(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(text.size()), '\r', '\n');
+  return lines;
 }
 
 TriangleMesh read_plain(std::string_view content, const std::filesystem::path& name, const ReadOptions& options) {

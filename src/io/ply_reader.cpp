@@ -49,8 +49,8 @@ class AsciiBody {
 
   // What other readers store for a property of type float, and so what a hull must enclose.
   double number(NumberType type) {
-    const double value = checked(scanner_.number("a number"), type);
-    return type == NumberType::Float32 ? nearest_float32(value) : value;
+    if (type != NumberType::Float32) return checked(scanner_.number("a number"), type);
+    return nearest_float32(checked(scanner_.float32("a number"), type));
   }
   std::int64_t integer(NumberType type) { return checked(scanner_.integer("an integer"), type); }
   std::size_t list_length(NumberType type, NumberType) {

@@ -8,6 +8,7 @@
 #include "io/npy_header.h"
 #include "io/number_table.h"
 #include "io/query_format.h"
+#include "io/text_scanner.h"
 #include "prohull/detail/extension.h"
 #include "prohull/detail/query_io.h"
 
@@ -125,20 +126,35 @@ RowSink poses_into(std::vector<Pose>& poses, const PoseRow& form, const std::str
   };
 }
 
-/// Refuses names of columns that put the w of the quaternion last.
+/// Whether the w of a quaternion is the last of the names in a line, behind a z. In a comment, names have at most two
+/// letters: "row" is none.
+bool names_w_last(std::string_view line) {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+  const std::size_t longest = line.starts_with('#') ? 2 : line.size();
+  std::string ends;  // the last letters of those that end in w or z
+  for (std::size_t begin = 0, end = 0; begin < line.size(); begin = end + 1) {
+    end = std::min(line.find_first_not_of(kLetters, begin), line.size());
+    if (end > begin && end - begin <= longest && std::string_view("wzWZ").find(line[end - 1]) < 4)
+      ends += line[end - 1];
+  }
+  return ends.ends_with("zw") || ends.ends_with("ZW");
+}
+
+/// Refuses names of columns that put the w of the quaternion last, whether they stand in comments or not.
 void check_order(std::string_view content, const std::filesystem::path& name) {
-  const std::string_view names = content.substr(0, content.find('\n'));
-  const auto w = names.rfind('w'), z = names.rfind('z');
-  if (!names.starts_with('#') && w != names.npos && z != names.npos && w > z)
-    fail(name.string(), {Place::Unit::Line, 1}, "the w of the quaternion comes last; expected x, y, z, w, x, y, z",
-         Defect::Malformed);
+  TextScanner scanner(content, name.string());
+  for (bool is_comment = true; is_comment && scanner.next_line();) {
+    const std::string_view line = scanner.rest_of_line();
+    if (names_w_last(line)) scanner.fail("the w of the quaternion comes last; expected x, y, z, w, x, y, z");
+    is_comment = line.starts_with('#');
+  }
 }
 
 std::vector<Pose> read_uncompressed_poses(std::string_view content, const std::filesystem::path& name,
                                           Pose (*of_matrix)(const Pose&)) {
   const std::string file = name.string();
   const PoseRow& form = pose_row(numbers_per_row(content, name), file);
-  if (query_format_of(content, name) == QueryFormat::Csv) check_order(content, name);
+  if (form.per_point == 7 && query_format_of(content, name) == QueryFormat::Csv) check_order(content, name);
   std::vector<Pose> poses;
   read_uncompressed(content, name, {"poses", form.names, form.per_point}, poses_into(poses, form, file, of_matrix));
   return poses;

@@ -109,6 +109,15 @@ Number TextScanner::parse(std::string_view what, std::string_view kind) {
 
 double TextScanner::number(std::string_view what) { return parse<double>(what, "a number"); }
 
+double TextScanner::float32(std::string_view what) {
+  at_line_end();
+  const char* const begin = at_;
+  const double value = number(what);
+  float nearest = 0;
+  const bool is_in_range = std::from_chars(begin + (*begin == '+'), at_, nearest).ec == std::errc();
+  return is_in_range ? nearest : value;
+}
+
 std::int64_t TextScanner::integer(std::string_view what) { return parse<std::int64_t>(what, "an integer"); }
 
 }  // namespace prohull

@@ -34,6 +34,7 @@ class TextScanner {
   /// Whether the separator comes next on this line; goes on behind it.
   bool skip_separator();
   void skip_rest_of_line() { at_ = line_end(); }
+  std::string_view rest_of_line() const { return {at_, static_cast<std::size_t>(line_end() - at_)}; }
   /// The text from the start of the next line on.
   std::string_view rest_after_line() const {
     const char* begin = line_end();
@@ -43,6 +44,8 @@ class TextScanner {
 
   /// The next word of this line as a number; `what` says in the message what was expected: "a coordinate".
   double number(std::string_view what);
+  /// The float32 nearest to the decimals, which is not always that nearest to their double; beyond its range, `number`.
+  double float32(std::string_view what);
   std::int64_t integer(std::string_view what);
 
   Place place() const { return {syntax_.lines_count ? Place::Unit::Line : Place::Unit::None, line_}; }

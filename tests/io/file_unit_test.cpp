@@ -26,6 +26,7 @@ TEST(FileUnit, IsToldByTheContent) {
   };
   EXPECT_EQ(unit_in(model("<model xmlns='x' unit='foot'><resources/>"), "a.3mf"), 0.3048);
   EXPECT_EQ(unit_in(model("<model xmlns='x'>"), "a.3MF"), 0.001);
+  EXPECT_EQ(unit_in(model("<?xml?><!-- <model unit='foot'> --><m:model xmlns:m='x' unit = 'inch'>"), "a.3mf"), 0.0254);
 }
 
 TEST(FileUnit, IsThatOfWhatAnArchiveHolds) {

@@ -122,6 +122,8 @@ TEST(Gltf, TurnsMirroredInstances) {
   EXPECT_EQ(signed_volume(mesh), signed_volume(tetrahedron()));
   json["nodes"][0]["scale"] = {-1, -1, 1};
   EXPECT_EQ(read(json).triangles, tetrahedron().triangles);
+  json["nodes"][0]["scale"] = {-1e-120, 1e-120, 1e-120};
+  EXPECT_NE(read(json).triangles, tetrahedron().triangles);
 }
 
 TEST(Gltf, KeepsEveryBitWhereNothingIsPlacedElsewhere) {

@@ -100,6 +100,22 @@ TEST(Ply, ReadsWindowsLinesCommentsAndTrailingData) {
   expect_one_triangle(header("binary_little_endian", 3, 1) + binary_body(std::endian::little) + "anything else");
 }
 
+TEST(Ply, KeepsTheBytesOfABinaryBodyBehindLinesThatEndWithCr) {
+  std::string content = header("binary_big_endian", 3, 0);
+  std::replace(content.begin(), content.end(), '\n', '\r');
+  const float x = std::bit_cast<float>(0x0d0d0d0d), y = std::bit_cast<float>(0x0a0a0a0a);
+  for (const float value : {x, x, x, x, x, x, y, y, y}) content += in_order(std::endian::big, value);
+  EXPECT_EQ(read_mesh(content, "a.ply").positions, PerVertex<Vec3>({{x, x, x}, {x, x, x}, {y, y, y}}));
+}
+
+// Just above the middle of two floats, and of the doubles beside it the middle is the nearest.
+TEST(Ply, RoundsDecimalsOfFloatsOnce) {
+  const TriangleMesh mesh = read_mesh(
+      header("ascii", 1, 0) + "1.0000000596046447753906250000001 +1.0000000596046447753906250000001 1e-60\n", "a.ply");
+  const double above = std::nextafter(1.0f, 2.0f);
+  EXPECT_EQ(mesh.positions[VertexId(0)], (Vec3{above, above, 0}));
+}
+
 TEST(Ply, SkipsPropertiesAndElementsThatAreNoGeometry) {
   const std::string elements =
       "element camera 2\nproperty double f\nproperty list uchar short s\n"

@@ -238,6 +238,9 @@ TEST(QueryReader, RefusesWhatIsNoPose) {
   refuse("0,0,0,1,0,0,0\n0,0,0,0,0,0,0\n", "poses.csv: line 2: a quaternion of a pose must be finite, and not 0");
   refuse("x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,1\n",
          "poses.csv: line 1: the w of the quaternion comes last; expected x, y, z, w, x, y, z");
+  refuse("# made by savetxt\n# x y z qx qy qz qw\n0 0 0 0 0 0 1\n",
+         "poses.csv: line 2: the w of the quaternion comes last; expected x, y, z, w, x, y, z");
+  EXPECT_EQ(read_poses("# z is up in each row\n0,0,0,1,0,0,0\n", "poses.csv").size(), 1u);
   refuse("0,0,0,nan,0,0,0\n", "poses.csv: line 1: a quaternion of a pose must be finite, and not 0");
   refuse("2,0,0,0,0,2,0,0,0,0,2,0\n",
          "poses.csv: line 1: a pose is not rigid: the matrix times its transpose must be the identity within 1e-06, "
