@@ -100,7 +100,10 @@ ProgressiveHull levels_of_parts(const py::tuple& parts) {
                          copied<VertexId>(parts[3].cast<Array<std::uint32_t>>()),
                          copied<VertexSplit>(parts[4].cast<Array<std::uint32_t>>()));
   if (const auto defect = first_defect(levels)) throw InputError(Defect::Malformed, "pickled hull: " + *defect);
-  return levels.with_finest_level(FinestLevel(parts[5].cast<int>()));
+  const FinestLevel finest{parts[5].cast<int>()};
+  if (std::ranges::none_of(finest_level_names(), [&](const auto& named) { return named.second == finest; }))
+    throw InputError(Defect::Malformed, "pickled hull: there is no such finest level");
+  return levels.with_finest_level(finest);
 }
 
 }  // namespace
@@ -111,6 +114,8 @@ void bind_meshes(py::module_& module) {
       .def_property_readonly("vertices", &vertices_of)
       .def_property_readonly("faces", &faces_of)
       .def_property_readonly("volume", &signed_volume, Release())
+      .def_property_readonly(
+          "diagonal", [](const TriangleMesh& mesh) { return finite_bounding_box(mesh).diagonal(); }, Release())
       .def("report", &facts_of)
       .def(
           "is_symmetric",

@@ -23,17 +23,23 @@ using SharedRobot = std::shared_ptr<view::ShownRobot>;
 /// A mesh, levels, convex pieces, balls as rows of four numbers, or a robot.
 using Drawn = std::variant<SharedMesh, SharedLevels, SharedRobot, std::vector<SharedMesh>, Array<double>>;
 
+template <class T>
+const T& required(const std::shared_ptr<T>& shared) {
+  if (!shared) throw py::type_error("None cannot be shown");
+  return *shared;
+}
+
 /// What view::Shown takes.
 struct DrawnOf {
   using Result = decltype(view::Shown::shape);
 
   template <class T>
   Result operator()(const std::shared_ptr<T>& shared) const {
-    return *shared;
+    return required(shared);
   }
   Result operator()(const std::vector<SharedMesh>& given) const {
     view::Pieces pieces;
-    for (const SharedMesh& piece : given) pieces.push_back(*piece);
+    for (const SharedMesh& piece : given) pieces.push_back(required(piece));
     return pieces;
   }
   Result operator()(const Array<double>& given) const { return balls_of(given); }
@@ -54,7 +60,7 @@ std::string page(const std::vector<Given>& given, const std::optional<std::pair<
   std::vector<view::Shown> shown;
   for (const Given& one : given) shown.push_back(shown_of(one));
   std::optional<view::Original> compared;
-  if (original) compared = view::Original{original->first, *original->second};
+  if (original) compared = view::Original{original->first, required(original->second)};
   return watched(progress, [&](Watch& watch) {
     return view::page(shown, compared,
                       {.solid_only = solid_only,

@@ -57,9 +57,7 @@ def distance_of(name: str, value: Gap, mesh: Mesh) -> float:
         share = _arrays.not_negative(name, float(value[:-1]))
     except ValueError:
         raise InputError(f'{name}={value!r}: expected a number, at least 0, or per cent as in "0.5%"') from None
-    corners = mesh.vertices[mesh.faces]
-    corners = corners[np.isfinite(corners).all(axis=(1, 2))].reshape(-1, 3)
-    return share / 100 * float(np.linalg.norm(np.ptp(corners, axis=0))) if len(corners) > 0 else 0.0
+    return share / 100 * mesh._core.diagonal
 
 
 def bound_of(name: str, value: Gap, mesh: Mesh) -> float:

@@ -311,6 +311,18 @@ def test_verify_says_how_it_decided(pony, hull, tmp_path):
     assert scaled and "times larger" in scaled.notes[0]
 
 
+def test_per_cent_of_a_tiny_mesh_are_not_zero(pony):
+    tiny = prohull.Mesh(pony.vertices * 1e-163, pony.faces)
+    assert not prohull.verify(tiny, tiny, gap="50%").keeps_gap
+
+
+@pytest.mark.parametrize("finest", [-1, 4])
+def test_pickled_levels_say_what_their_finest_level_is(hull, finest):
+    make, (parts,) = hull._levels.__reduce__()
+    with pytest.raises(prohull.InputError, match="finest level"):
+        make((*parts[:5], finest))
+
+
 def test_pickled_hulls_are_the_same(hull, pony):
     copy = pickle.loads(pickle.dumps(hull, protocol=5))
     assert repr(copy) == repr(hull) and copy.certified and copy.levels == hull.levels

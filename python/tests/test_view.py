@@ -165,3 +165,9 @@ def test_what_cannot_be_shown_is_said(cube):
     if not _prohull.no_page:
         with pytest.raises(prohull.InputError, match="8 hulls at most"):
             prohull.view(*[cube] * 9)
+
+
+@pytest.mark.parametrize("part", [None, [None]])
+def test_nothing_is_no_part_of_a_page(part):
+    with pytest.raises(TypeError, match="None cannot be shown"):
+        _prohull.page([("nothing", part, None)], None, False, "", 1, None)
