@@ -13,6 +13,7 @@
 #include "command.h"
 #include "engine_rules.h"
 #include "prohull/convex_cover.h"
+#include "prohull/detail/cover_summary.h"
 #include "prohull/detail/rounded.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
@@ -240,42 +241,7 @@ Certificate certificate_of(const ConvexCover& cover, const CertifiedOriginal& or
 
 // Summary and report
 
-/// The variant has its alternatives in the order of PieceShape.
-PieceShape shape_of(const ConvexPiece& piece) { return static_cast<PieceShape>(piece.primitive.index()); }
 std::string_view shape_name(const ConvexPiece& piece) { return name_of(piece_shape_names(), shape_of(piece)); }
-
-std::size_t most_vertices(const ConvexCover& cover) {
-  std::size_t most = 0;
-  for (const ConvexPiece& piece : cover.pieces)
-    if (PieceFiles::is_mesh(piece)) most = std::max(most, piece.mesh.vertex_count());
-  return most;
-}
-
-/// "12 convex pieces of at most 64 vertices", "3 boxes", "1 convex piece of 40 vertices and 3 boxes"
-std::string described_pieces(const ConvexCover& cover) {
-  const auto count = [&](PieceShape shape) {
-    return static_cast<std::size_t>(std::ranges::count(cover.pieces, shape, shape_of));
-  };
-  std::vector<std::string> parts;
-  if (const std::size_t n = count(PieceShape::Polytope); n > 0)
-    parts.push_back(
-        fmt::format("{} of {}{} vertices", counted(n, "convex piece"), n > 1 ? "at most " : "", most_vertices(cover)));
-  const auto add = [&](PieceShape shape, const char* one, const char* many) {
-    if (const std::size_t n = count(shape); n > 0) parts.push_back(counted(n, one, many));
-  };
-  add(PieceShape::Box, "box", "boxes");
-  add(PieceShape::Capsule, "capsule", "capsules");
-  add(PieceShape::Ball, "sphere", "spheres");
-  return fmt::format("{}", fmt::join(parts, " and "));
-}
-
-std::string described_size(const ConvexCover& cover) {
-  const char* const at_most = cover.volume_is_bound ? "at most " : "";
-  if (cover.verdict.encloses_solid != Answer::Yes || !(cover.original_volume > 0))
-    return fmt::format("volume {}{:.4g}", at_most, cover.volume);
-  return fmt::format("{}{} more volume than the mesh{}", at_most, percent_text(std::max(0.0, cover.void_ratio), 2),
-                     cover.is_estimated ? " (estimated)" : "");
-}
 
 /// "24 vertices (limit 64)"
 std::string described_limit(std::size_t number, const char* what, std::size_t limit) {
@@ -305,12 +271,8 @@ void print_summary(const ConvexOptions& options, const PieceFiles& files, const 
   say("{}: {}, {}\n", input_name(options.in), counted(outcome.input.faces, "face"),
       counted(outcome.input.components, "component"));
   for (const std::string& note : cover.notes) say("  {}\n", note);
-  const double reach = cover.verdict.distance().upper;
-  say("{}: {}, {}, which reach out by at most {:.4g} ({:.3g} % of the diagonal){}{}\n", output_name(options.out),
-      described_pieces(cover), described_size(cover), rounded_up(reach, 4),
-      rounded_up(100 * reach / outcome.diagonal, 3), cover.fills_cavities ? " with cavities filled" : "",
-      text_of_openings(cover.verdict.cap_faces > 0, *cover.verdict.distance_to_triangles));
-  say("  certified: {}\n", certificate_of(cover.verdict, "the union of the pieces as written"));
+  say("{}\n", line_of_cover(output_name(options.out), cover, outcome.diagonal));
+  say("  {}\n", line_of_proof(cover));
   if (options.engine && outcome.largest.vertices > 0) print_limits(options, outcome);
   const auto in_shape = static_cast<std::size_t>(std::ranges::count(cover.pieces, options.cover.shape, shape_of));
   if (in_shape < cover.pieces.size())

@@ -38,17 +38,28 @@ void check_unit(const FileUnit& file, const InputOptions& options, const std::fi
                                  name.string(), name_of_unit(file.metres)));
 }
 
+/// Standard input has no suffix that could tell its format.
+TriangleMesh read_known_as(const std::filesystem::path& name, std::string_view content, bool is_named,
+                           const ReadOptions& how) {
+  try {
+    return read_mesh(content, name, how);
+  } catch (const InputError& error) {
+    if (is_named || error.defect() != Defect::UnknownFormat || content.empty()) throw;
+    throw InputError(error.defect(), fmt::format("{}; --in-format names its format", error.what()));
+  }
+}
+
 TriangleMesh mesh_in(std::string_view content, const std::filesystem::path& path, const InputOptions& options,
                      NonFinite non_finite, MeshMarks* marks = nullptr, FileUnit* unit = nullptr) {
   const std::filesystem::path name = known_as(path, options);
   ProgressLine line;
   FileUnit of_file;
-  TriangleMesh mesh = read_mesh(content, name,
-                                {.non_finite = non_finite,
-                                 .scale = options.factor(),
-                                 .marks = marks,
-                                 .unit = &of_file,
-                                 .progress = std::ref(line)});
+  TriangleMesh mesh = read_known_as(name, content, !is_standard_stream(path) || !options.format.empty(),
+                                    {.non_finite = non_finite,
+                                     .scale = options.factor(),
+                                     .marks = marks,
+                                     .unit = &of_file,
+                                     .progress = std::ref(line)});
   check_unit(of_file, options, name);
   if (unit) *unit = of_file;
   return mesh;

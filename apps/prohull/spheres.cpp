@@ -1,11 +1,10 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <utility>
 
 #include "certificate_output.h"
 #include "command.h"
-#include "prohull/detail/rounded.h"
+#include "prohull/detail/cover_summary.h"
 #include "prohull/error.h"
 #include "prohull/sphere_cover.h"
 #include "robot/files/piece_files.h"
@@ -30,7 +29,6 @@ struct Outcome {
   double diagonal = 0, read_seconds = 0;
   Certificate certificate;
 
-  double part_of_diagonal() const { return diagonal > 0 ? cover.verdict.distance().upper / diagonal : 0; }
   double void_ratio() const { return cover.volume / cover.original_volume - 1; }
   bool has_volume() const { return cover.original_volume > 0; }
 };
@@ -95,29 +93,13 @@ nlohmann::json report_of(const SpheresOptions& options, const Outcome& outcome) 
           {"seconds", {{"read", outcome.read_seconds}, {"cover", cover.seconds}, {"verify", cover.verify_seconds}}}};
 }
 
-/// From what they reach out.
-std::string text_of_origin(const SphereCover& cover) {
-  const DistanceBounds& from_triangles = *cover.verdict.distance_to_triangles;
-  if (!cover.is_of_wrap) return text_of_openings(cover.verdict.cap_faces > 0, from_triangles);
-  if (cover.verdict.distance().upper == from_triangles.upper) return ", from the triangles alone";
-  return fmt::format("; that is from a wrap, and from the triangles alone it is at most {:.4g}",
-                     rounded_up(from_triangles.upper, 4));
-}
-
 void print_summary(const SpheresOptions& options, const Outcome& outcome) {
   const SphereCover& cover = outcome.cover;
-  say("{}: {} around {}, which reach out by at most {:.4g}, {:.3g} % of the diagonal{}\n", output_name(options.out),
-      counted(cover.balls.size(), "sphere"), counted(outcome.faces - cover.verdict.non_finite_faces, "face"),
-      rounded_up(cover.verdict.distance().upper, 4), rounded_up(100 * outcome.part_of_diagonal(), 3),
-      text_of_origin(cover));
+  say("{}\n", line_of_cover(output_name(options.out), cover, outcome.faces, outcome.diagonal));
   if (!cover.within_bounds) say("  --max-distance {:g} is not kept\n", options.cover.max_distance);
-  if (outcome.has_volume())
-    say("  volume: {:.4g} with overlaps counted once, {} {} than the solid's{}\n", cover.volume,
-        percent_text(std::abs(outcome.void_ratio()), 1), outcome.void_ratio() < 0 ? "less" : "more",
-        cover.is_estimated ? " (estimated)" : "");
+  if (const std::string volume = line_of_volume(cover); !volume.empty()) say("  {}\n", volume);
   for (const std::string& note : cover.notes) say("  {}\n", note);
-  say("  certified: {}{}\n", certificate_of(cover.verdict, "the union of the spheres as written"),
-      cover.fills_wrap ? ", and the inside of the wrap" : "");
+  say("  {}\n", line_of_proof(cover));
   if (cover.verdict.certified && !options.certificate.empty())
     print_certificate(options.certificate, outcome.certificate, {options.out}, options.in);
   say("  read {:.2f} s, cover {:.2f} s, of which verify {:.2f} s\n", outcome.read_seconds, cover.seconds,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "prohull/progressive_hull.h"
@@ -12,6 +13,9 @@ namespace prohull {
 /// Writes a .phull file: first beside `path`, then it is renamed, so that no half-written file is left. Throws
 /// InputError(CannotWrite).
 void save_hull(const std::filesystem::path& path, const ProgressiveHull& hull);
+
+/// What save_hull writes.
+std::string hull_content(const ProgressiveHull& hull);
 
 /// Reads a .phull file. Throws InputError if the file cannot be read, is not a .phull file, has a newer version of the
 /// format, is truncated or corrupted, or does not hold a sound progressive hull (first_defect). The memory that it uses

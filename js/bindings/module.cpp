@@ -2,6 +2,7 @@
 // object with `error` and its name, as no exception of C++ may reach JavaScript.
 #include <emscripten/bind.h>
 #include <emscripten/heap.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <variant>
@@ -9,12 +10,14 @@
 #include "calls.h"
 #include "levels.h"
 #include "prohull/convex_cover.h"
+#include "prohull/detail/cover_summary.h"
 #include "prohull/detail/float32_hull.h"
 #include "prohull/detail/given_options.h"
 #include "prohull/detail/summary.h"
 #include "prohull/detail/told_notes.h"
 #include "prohull/distance.h"
 #include "prohull/enclosing_hull.h"
+#include "prohull/hull_file.h"
 #include "prohull/mesh_io.h"
 #include "prohull/mesh_report.h"
 #include "prohull/progressive_hull.h"
@@ -22,6 +25,12 @@
 
 namespace prohull::js {
 namespace {
+
+/// As Verdict has them: the upper bounds, which are proven.
+void add_distances(val& object, const Verdict& verdict) {
+  if (verdict.distance_to_triangles) object.set("distanceToTriangles", verdict.distance_to_triangles->upper);
+  if (verdict.distance_to_solid) object.set("distanceToSolid", verdict.distance_to_solid->upper);
+}
 
 val object_of(const EnclosingHull& hull, const EnclosingHulls& made) {
   val object = object_of_mesh(hull.mesh);
@@ -37,7 +46,6 @@ val object_of(const EnclosingHull& hull, const EnclosingHulls& made) {
   object.set("notes", strings_of(told_notes(hull, made)));
   object.set("buildSeconds", hull.build_seconds);
   object.set("verifySeconds", hull.verify_seconds);
-  if (hull.levels) object.set("levels", object_of_levels(hull.levels->with_finest_level(finest_level(made, hull))));
   return object;
 }
 
@@ -55,7 +63,7 @@ void add_summary(val& object, const std::string& file, const EnclosingHull& hull
        {lines_of_shape(told), lines_of_limits(told), lines_of_proof(as_written(measures.verdict, written))})
     lines.insert(lines.end(), more.begin(), more.end());
   object.set("summary", strings_of(lines));
-  object.set("distance", measures.verdict.distance_to_triangles->upper);
+  add_distances(object, measures.verdict);
 }
 
 val build(const val& mesh, const val& targets, const val& given, const val& progress) {
@@ -73,6 +81,8 @@ val build(const val& mesh, const val& targets, const val& given, const val& prog
   val hulls = val::array();
   for (const EnclosingHull& hull : made.hulls) {
     val object = object_of(hull, made);
+    if (options.levels && hull.levels)
+      object.set("levels", object_of_levels(hull.levels->with_finest_level(finest_level(made, hull))));
     if (!file.empty()) add_summary(object, file, hull, made, options);
     hulls.call<void>("push", object);
   }
@@ -87,9 +97,20 @@ val level(const val& levels, double faces, const val& given) {
   named.refuse_others();
   if (!(faces >= 0)) throw InputError(Defect::InvalidOption, "faces: expected a number, at least 0");
   const ProgressiveHull hull = levels_of(levels);
+  if (faces < static_cast<double>(hull.base_face_count()))
+    throw InputError(Defect::InvalidOption,
+                     fmt::format("faces={:.17g}: the coarsest level has {} faces", faces, hull.base_face_count()));
   TriangleMesh found = hull.level(static_cast<std::size_t>(std::min<double>(faces, 0xffffffff)));
   if (float32) found = with_float32_coordinates(found, hull.side()).mesh;
   return object_of_mesh(found);
+}
+
+/// The bytes of a .phull file.
+val write_levels(const val& levels) {
+  const std::string content = hull_content(levels_of(levels));
+  val object = val::object();
+  object.set("bytes", array_of(reinterpret_cast<const unsigned char*>(content.data()), content.size()));
+  return object;
 }
 
 val object_of(const Verification& found) {
@@ -155,9 +176,26 @@ val object_of_cover(const Cover& cover) {
   object.set("volume", cover.volume);
   object.set("originalVolume", cover.original_volume);
   object.set("withinBounds", cover.within_bounds);
-  object.set("reach", cover.verdict.distance().upper);
+  add_distances(object, cover.verdict);
   object.set("notes", strings_of(told_notes(cover)));
   return object;
+}
+
+/// The lines that `prohull convex` prints of the pieces, written to a file of that name.
+std::vector<std::string> summary_of(const std::string& file, const ConvexCover& cover, const TriangleMesh& mesh) {
+  std::vector<std::string> lines = cover.notes;
+  lines.push_back(line_of_cover(file, cover, finite_bounding_box(mesh).diagonal()));
+  lines.push_back(line_of_proof(cover));
+  return lines;
+}
+
+/// As `prohull spheres` prints them.
+std::vector<std::string> summary_of(const std::string& file, const SphereCover& cover, const TriangleMesh& mesh) {
+  std::vector<std::string> lines{line_of_cover(file, cover, mesh.face_count(), finite_bounding_box(mesh).diagonal())};
+  if (const std::string volume = line_of_volume(cover); !volume.empty()) lines.push_back(volume);
+  lines.insert(lines.end(), cover.notes.begin(), cover.notes.end());
+  lines.push_back(line_of_proof(cover));
+  return lines;
 }
 
 struct SetPrimitive {
@@ -191,25 +229,41 @@ struct SetPrimitive {
   }
 };
 
-val convex_pieces(const val& mesh, const val& given, const val& progress) {
-  const ConvexCoverOptions options = options_of(given, progress, convex_cover_options<Given>);
-  const ConvexCover cover = convex_cover(mesh_of(mesh, "mesh"), options);
-  val object = object_of_cover(cover), pieces = val::array();
+void add_parts(val& object, const ConvexCover& cover) {
+  val pieces = val::array();
   for (const ConvexPiece& piece : cover.pieces) {
     val one = object_of_mesh(piece.mesh);
     std::visit(SetPrimitive{one}, piece.primitive);
     pieces.call<void>("push", one);
   }
   object.set("pieces", pieces);
+}
+
+void add_parts(val& object, const SphereCover& cover) {
+  object.set("balls", array_of(reinterpret_cast<const double*>(cover.balls.data()), 4 * cover.balls.size()));
+}
+
+template <class Read, class Make>
+val covered(const val& given_mesh, const val& given, const val& progress, Read read, Make make) {
+  std::string file;
+  const auto options = options_of(given, progress, [&](const Given& named) {
+    named.text("summary_of", file);
+    return read(named);
+  });
+  const TriangleMesh mesh = mesh_of(given_mesh, "mesh");
+  const auto cover = make(mesh, options);
+  val object = object_of_cover(cover);
+  if (!file.empty()) object.set("summary", strings_of(summary_of(file, cover, mesh)));
+  add_parts(object, cover);
   return object;
 }
 
+val convex_pieces(const val& mesh, const val& given, const val& progress) {
+  return covered(mesh, given, progress, convex_cover_options<Given>, convex_cover);
+}
+
 val spheres(const val& mesh, const val& given, const val& progress) {
-  const SphereCoverOptions options = options_of(given, progress, sphere_cover_options<Given>);
-  const SphereCover cover = sphere_cover(mesh_of(mesh, "mesh"), options);
-  val object = object_of_cover(cover);
-  object.set("balls", array_of(reinterpret_cast<const double*>(cover.balls.data()), 4 * cover.balls.size()));
-  return object;
+  return covered(mesh, given, progress, sphere_cover_options<Given>, sphere_cover);
 }
 
 val repair(const val& mesh, const val& given, const val& progress) {
@@ -270,6 +324,7 @@ EMSCRIPTEN_BINDINGS(prohull) {
   function("repair", &Guarded<repair>::call);
   function("inspect", &Guarded<inspect_mesh>::call);
   function("read", &Guarded<read>::call);
+  function("writeLevels", &Guarded<write_levels>::call);
   function("write", &Guarded<write>::call);
   function("memory", &memory);
 }

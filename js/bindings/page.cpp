@@ -78,13 +78,19 @@ val object_of_file(std::string_view content) {
 /// As `prohull convex` writes them to one file.
 val write_several(const val& meshes, const val& names, const std::string& file) {
   std::vector<TriangleMesh> all;
+  if (meshes["length"].as<unsigned>() == 0) throw InputError(Defect::EmptyMesh, "meshes: there is none");
   for (const val& mesh : emscripten::vecFromJSArray<val>(meshes)) all.push_back(mesh_of(mesh, "meshes"));
   return object_of_file(meshes_content(file, all, emscripten::vecFromJSArray<std::string>(names)));
 }
 
 /// As `prohull spheres` writes them.
 val spheres_json(const val& balls, const std::string& link) {
-  return object_of_file(robot::sphere_json({link, balls_of(balls)}));
+  const view::Balls all = balls_of(balls);
+  for (const Ball& ball : all)
+    if (!is_finite(ball.center) || !std::isfinite(ball.radius) || ball.radius < 0)
+      throw InputError(Defect::NonFiniteCoordinate,
+                       "balls: expected finite numbers, four for each, of which the last is at least 0");
+  return object_of_file(robot::sphere_json({link, all}));
 }
 
 CertifiedOriginal original_of(const val& bytes, const std::string& name, bool is_stl) {

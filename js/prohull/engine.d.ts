@@ -27,6 +27,7 @@ export interface Engine {
   figure(name: string, args: unknown[]): any;
   read(bytes: ArrayBuffer | Uint8Array, name: string): Promise<Mesh>;
   write(mesh: MeshLike, name: string): Uint8Array;
+  writeLevels(levels: Levels): Uint8Array;
   writeSeveral(...args: Parameters<typeof prohull.writeSeveral>): Uint8Array;
   spheresJson(...args: Parameters<typeof prohull.spheresJson>): Uint8Array;
   memory(): number;

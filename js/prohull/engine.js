@@ -13,12 +13,14 @@ export function errorOf(name, message) {
   return name === 'RangeError' ? new RangeError(message) : new Error(message);
 }
 
+const NOT_NUMBERS = [DataView, BigInt64Array, BigUint64Array];
+
 function numbers(values, name) {
   if (Array.isArray(values)) {
     if (!values.every((value) => typeof value === 'number')) throw new InputError(`${name}: expected numbers only`);
     return Float64Array.from(values);
   }
-  if (ArrayBuffer.isView(values) && !(values instanceof DataView) && typeof values[0] !== 'bigint') return values;
+  if (ArrayBuffer.isView(values) && !NOT_NUMBERS.some((kind) => values instanceof kind)) return values;
   throw new InputError(`${name}: expected an array of numbers, three for each, one after the other`);
 }
 
@@ -72,6 +74,7 @@ function bytesOf(bytes) {
   return new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength);
 }
 
+const CHECKED = /\.(stl|obj|ply|off)(\.gz)?$/i;  // files that prohull_check reads
 const kMostOutput = (compressed) => 2 ** 26 + 200 * compressed;  // as the library has it
 
 /** The content of a file, gzipped or not. */
@@ -131,11 +134,14 @@ export async function loadEngine(wasm) {
     sample: (name, faces = 20000) => call('sample', textOf(name, 'name'), Number(faces)),
     length: (text, mesh) => call('length', String(text), meshOf(mesh, 'mesh')).length,
     async certificate(hull, original, name, options = {}) {
-      const content = await contentOf(original, textOf(name, 'name'));
+      if (!CHECKED.test(textOf(name, 'name')))
+        throw new InputError(`${name}: prohull_check reads .stl, .obj, .ply and .off files only; make the hull of one of these`);
+      const content = await contentOf(original, name);
       return call('certificate', meshOf(hull, 'hull'), content, name, optionsOf(options)).bytes;
     },
     scene: (hull, original, options = {}, progress) =>
       call('scene', hull === undefined || hull === null ? null : shownOf(hull), originalOf(original), optionsOf(options), progress),
+    writeLevels: (levels) => call('writeLevels', levelsOf(levels)).bytes,
     write: (mesh, name) => call('write', meshOf(mesh, 'mesh'), textOf(name, 'name')).bytes,
     writeSeveral(meshes, name) {
       const all = meshesOf(meshes, 'meshes'), names = meshes.map((mesh, i) => textOf(mesh.name, `meshes[${i}].name`));

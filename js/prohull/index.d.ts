@@ -24,7 +24,8 @@ export interface BuildOptions extends Running {
   side?: Side;
   /** Moves vertices towards the mesh: less void, in more time. */
   tight?: boolean;
-  /** Keeps the levels, for `level`. */
+  /** Keeps the levels, for `level` and `writeLevels`. The hull is then the coarsest of them, and may be larger. There are none of tight
+   * hulls and of hulls with a gap. */
   levels?: boolean;
   /** The name of the file that the hull is for: the result then has a `summary`. */
   summaryOf?: string;
@@ -62,7 +63,16 @@ export interface Levels {
   splits: Uint32Array;
 }
 
-export interface Hull extends Mesh {
+/** Proven: no point is farther than that. */
+interface Distances {
+  /** From all triangles. */
+  distanceToTriangles?: number;
+  /** From the solid; what closes its openings counts as part of it. It is left out where there is no solid. */
+  distanceToSolid?: number;
+}
+
+/** The distances are those of a hull with a summary. */
+export interface Hull extends Mesh, Distances {
   /** Proven exactly, by code that shares nothing with the construction: the hull encloses the mesh. */
   certified: boolean;
   proof: '' | 'replay' | 'enclosure' | 'coverage' | 'padding';
@@ -78,11 +88,10 @@ export interface Hull extends Mesh {
   notes: string[];
   buildSeconds: number;
   verifySeconds: number;
+  /** If they were asked for. */
   levels?: Levels;
   /** What `prohull build` prints of the hull, line by line. */
   summary?: string[];
-  /** Proven, of a hull with a summary: no point of it is farther from the triangles. */
-  distance?: number;
 }
 
 export interface Verification {
@@ -104,15 +113,17 @@ export interface Verification {
   worst: {face: number; point: Float64Array; distance: number}[];
 }
 
-interface Cover {
+/** Points in the solid of a closed mesh do not count in distances. */
+interface Cover extends Distances {
+  distanceToTriangles: number;
   certified: boolean;
   coversInside: boolean;
   volume: number;
   originalVolume: number;
   withinBounds: boolean;
-  /** Proven: how far the cover reaches out, at most. */
-  reach: number;
   notes: string[];
+  /** What `prohull convex` or `prohull spheres` prints, line by line; `summaryOf` asks for it. */
+  summary?: string[];
 }
 
 export type Primitive =
@@ -156,7 +167,7 @@ export class InputError extends Error {}
 /** Builds a certified hull of any triangles, of at most so many faces where that is possible. */
 export function build(mesh: MeshLike, targetFaces?: number, options?: BuildOptions): Promise<Hull>;
 export function build(mesh: MeshLike, targetFaces: number[] | Uint32Array, options?: BuildOptions): Promise<Hull[]>;
-/** The finest level of at most so many faces; with coordinates for STL and GLB files if that is asked for. */
+/** The finest level of at most so many faces, which are no fewer than those of the hull; with coordinates for STL and GLB files if that is asked for. */
 export function level(levels: Levels, faces: number, options?: Running & {float32Coordinates?: boolean}): Promise<Mesh>;
 /** Decides exactly whether a hull encloses the original (side 'inner': whether the original encloses it). */
 export function verify(
@@ -171,11 +182,11 @@ export function convexPieces(
   mesh: MeshLike,
   options?: Running & {
     pieces?: number; vertices?: number; maxDistance?: number; maxVoidPercent?: number;
-    shape?: 'polytope' | 'box' | 'capsule' | 'sphere'; float32Coordinates?: boolean;
+    shape?: 'polytope' | 'box' | 'capsule' | 'sphere'; float32Coordinates?: boolean; summaryOf?: string;
   }): Promise<ConvexPieces>;
 /** Covers triangles by balls. */
 export function spheres(
-  mesh: MeshLike, options?: Running & {count?: number; maxDistance?: number; fill?: boolean}): Promise<Spheres>;
+  mesh: MeshLike, options?: Running & {count?: number; maxDistance?: number; fill?: boolean; summaryOf?: string}): Promise<Spheres>;
 /** Makes a closed solid of any triangles. */
 export function repair(
   mesh: MeshLike,
@@ -188,6 +199,8 @@ export function inspect(mesh: MeshLike, running?: Running): Promise<Inspection>;
 export function read(bytes: ArrayBuffer | Uint8Array, name: string, running?: Running): Promise<Mesh>;
 /** The bytes of a file of that name: .stl, .obj, .ply, .off or .glb. */
 export function write(mesh: MeshLike, name: string): Promise<Uint8Array>;
+/** The bytes of a .phull file, which `prohull info`, `lod`, `verify` and `query` read. They are not compressed. */
+export function writeLevels(levels: Levels): Promise<Uint8Array>;
 /** The bytes of an .obj or .glb file with an object of its own for each mesh, as `prohull convex` writes its pieces. */
 export function writeSeveral(meshes: (MeshLike & {name: string})[], name: string): Promise<Uint8Array>;
 /** The bytes of the .json file that `prohull spheres` writes. */
@@ -196,7 +209,7 @@ export function spheresJson(balls: Float64Array | number[], link: string): Promi
 export function sample(name: string, faces?: number): Promise<Mesh>;
 /** Of "0.5" or "1%" of the diagonal, in the unit of the mesh. */
 export function length(text: string, mesh: MeshLike): Promise<number>;
-/** A certificate, as `prohull build --certificate` writes it. `original` has the bytes of the original's file, plain or gzipped; gap and
+/** A certificate, as `prohull build --certificate` writes it. `original` has the bytes of the original's file, STL, OBJ, PLY or OFF, plain or gzipped; gap and
     maxDistance are what was asked for, provenGap and distance what the hull keeps. */
 export function certificate(
   hull: MeshLike, original: ArrayBuffer | Uint8Array, name: string,

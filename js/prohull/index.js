@@ -107,6 +107,7 @@ export const scene = withOptions('scene', 2);
 export const sample = withoutOptions('sample', 2);
 export const length = withoutOptions('length', 2);
 export const write = withoutOptions('write', 2);
+export const writeLevels = withoutOptions('writeLevels', 1);
 export const writeSeveral = withoutOptions('writeSeveral', 2);
 export const figure = withoutOptions('figure', 2);
 export const spheresJson = withoutOptions('spheresJson', 2);

@@ -8,7 +8,6 @@
 #include "io/imported_mesh.h"
 #include "prohull/detail/memory.h"
 #include "prohull/error.h"
-#include "prohull/hull_file.h"
 
 namespace prohull {
 namespace {
@@ -37,8 +36,6 @@ std::optional<FileContent> decompressed(std::string_view bytes, const std::files
                      fmt::format("{}: a zip archive, which is not read here; take the file out of it", name.string()));
   return {};
 }
-
-bool is_hull_content(std::string_view content) { return content.starts_with("\x89PHULL\r\n"); }
 
 FileUnit unit_of_file(std::string_view, const std::filesystem::path&) { return {}; }
 

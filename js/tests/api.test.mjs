@@ -2,7 +2,9 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {gzipSync} from 'node:zlib';
-import {cube, engine, prohull} from './package.mjs';
+import {readFileSync, writeFileSync} from 'node:fs';
+import {join} from 'node:path';
+import {cube, engine, hasProgram, prohull, run, scratch} from './package.mjs';
 
 const refused = (call, says) => assert.rejects(call, (error) => {
   assert.equal(error.name, 'InputError');
@@ -55,6 +57,41 @@ test('levels nest', async () => {
   await refused(prohull.level({...hull.levels, splits: hull.levels.splits.slice(6)}, 500), /do not belong together/);
   await refused(prohull.level({...hull.levels, splits: hull.levels.splits.map(() => 7)}, 500), /split/);
   await refused(prohull.level(undefined, 500), /levels/);
+  await refused(prohull.level(hull.levels, 59), /faces=59: the coarsest level has 60 faces/);
+  assert.ok(!('levels' in await prohull.build(part, 60)), 'only where they are asked for');
+});
+
+test('the program reads the file of all levels, of one block and of several', {skip: !hasProgram && 'there is no program to compare with'}, async () => {
+  for (const [name, faces, target] of [['box', 12, 12], ['knot', 500, 60], ['knot', 20000, 100]]) {
+    const part = await prohull.sample(name, faces), {levels} = await prohull.build(part, target, {levels: true});
+    const [input, all, level] = ['levels_part.ply', 'page.phull', 'level.ply'].map((name) => join(scratch, name));
+    writeFileSync(input, await prohull.write(part, input));
+    writeFileSync(all, await prohull.writeLevels(levels));
+    assert.ok(run('verify', all, input), `${name} ${faces}`);
+    for (const some of [part.faces.length / 3, (part.faces.length / 3 + target) >> 1]) {
+      run('lod', all, '-o', level, '--faces', String(some));
+      assert.deepEqual(new Uint8Array(readFileSync(level)), await prohull.write(await prohull.level(levels, some), level));
+    }
+    const damaged = readFileSync(all);
+    damaged[damaged.length - 20] ^= 1;
+    writeFileSync(all, damaged);
+    assert.throws(() => run('verify', all, input), /damaged/, 'by the checksum');
+  }
+});
+
+test('distances from an open mesh are told from its triangles, and from its solid with the openings closed', async () => {
+  const open = {vertices: cube.vertices, faces: cube.faces.slice(6)};
+  const pieces = await prohull.convexPieces(open, {pieces: 1, summaryOf: 'a.obj'}), balls = await prohull.spheres(open, {count: 8, summaryOf: 'a.json'});
+  const hull = await prohull.build(open, 12, {summaryOf: 'a.ply'});
+  for (const {distanceToTriangles, distanceToSolid, summary} of [pieces, balls, hull]) {
+    assert.ok(distanceToTriangles > distanceToSolid && distanceToTriangles > 0.49);
+    assert.match(summary.join('\n'), /; its openings count as closed, and from its triangles alone it is at most [\d.]+\n/);
+    assert.match(summary.at(-1), /^certified: yes, .* covers every triangle of the original/);
+  }
+  assert.match(pieces.summary.at(-1), /, and its inside with its openings closed by 2 faces$/);
+  assert.match(balls.summary[1], /^volume: .* more than the solid's$/);
+  const flat = await prohull.convexPieces({vertices: [0, 0, 0, 1, 0, 0, 0, 1, 0], faces: [0, 1, 2]}, {pieces: 1});
+  assert.ok(!('distanceToSolid' in flat) && flat.distanceToTriangles < 0.1);
 });
 
 test('coordinates for STL are those of every level, the finest included', async () => {
@@ -98,6 +135,10 @@ test('files', async () => {
   const two = [{...cube, name: 'a'}, {...third, name: 'b'}], text = new TextDecoder().decode(await prohull.writeSeveral(two, 'a.obj'));
   assert.deepEqual(text.match(/^o .*/gm), ['o a', 'o b']);
   await refused(prohull.writeSeveral(two, 'a.ply'), /hold one mesh each/);
+  await refused(prohull.writeSeveral([], 'a.obj'), /meshes: there is none/);
+  for (const radius of [NaN, -1]) await refused(prohull.spheresJson([1, 2, 3, radius], 'a'), /balls: expected finite numbers/);
+  await refused(prohull.certificate(cube, await prohull.write(cube, 'a.glb'), 'a.glb'), /a.glb: prohull_check reads/);
+  await refused(prohull.read(new TextEncoder().encode('hello'), 'a.txt'), /give it the suffix of its format$/);
   assert.deepEqual(JSON.parse(new TextDecoder().decode(await prohull.spheresJson([1, 2, 3, 4], 'a'))),
     {link: 'a', spheres: [{center: [1, 2, 3], radius: 4}]});
   await refused(prohull.read(gzipSync('solid').subarray(0, 12), 'a.stl'), /cannot decompress/);
@@ -122,7 +163,7 @@ test('a summary has the lines of the program, and lengths are as it reads them',
   const hull = await prohull.build(part, 200, {summaryOf: 'hull.stl', float32Coordinates: true});
   assert.match(hull.summary[0], /^hull\.stl: outer hull of 200 faces, void [\d.]+ %, at most [\d.]+ from the mesh$/);
   assert.equal(hull.summary.at(-1), 'certified: yes, the file as written encloses the original');
-  assert.ok(hull.distance > 0 && hull.distance < 0.2);
+  assert.ok(hull.distanceToTriangles > 0 && hull.distanceToTriangles < 0.2);
   const unrounded = await prohull.build(part, 200, {summaryOf: 'hull.stl'}).catch((error) => error);
   assert.match(unrounded.message, /float32|STL|stl/);
   const {diagonal} = await prohull.inspect(part);
@@ -132,8 +173,8 @@ test('a summary has the lines of the program, and lengths are as it reads them',
   await refused(prohull.length('wide', part), /wide: expected a number/);
   await refused(prohull.sample('cow', 2000), /cow/);
   const bytes = await prohull.write(part, 'part.ply');
-  const certificate = await prohull.certificate(hull, bytes, 'part.ply', {distance: hull.distance});
-  assert.deepEqual(await prohull.certificate(hull, gzipSync(bytes), 'part.ply.gz', {distance: hull.distance}), certificate);
+  const certificate = await prohull.certificate(hull, bytes, 'part.ply', {distance: hull.distanceToTriangles});
+  assert.deepEqual(await prohull.certificate(hull, gzipSync(bytes), 'part.ply.gz', {distance: hull.distanceToTriangles}), certificate);
 });
 
 test('what is wrong is said in one line', async () => {
@@ -149,6 +190,7 @@ test('what is wrong is said in one line', async () => {
   await refused(prohull.build({vertices: [], faces: []}), /no faces/);
   await refused(prohull.build({vertices: vertices.map(() => NaN), faces}), /finite/);
   await refused(prohull.build({vertices: vertices.map(() => Infinity), faces}), /finite/);
+  await refused(prohull.build({vertices, faces: new BigUint64Array(0)}), /array of numbers/);
   await refused(prohull.build({vertices: new BigInt64Array(3), faces: [0, 0, 0]}), /array of numbers/);
   await refused(prohull.verify(cube, {vertices: [], faces: []}), /./);
   for (const targets of [0, -1, 2.5, NaN, [8, 3]]) await refused(prohull.build(cube, targets), /targetFaces=.*: expected a whole number, at least 4/);

@@ -64,11 +64,11 @@ test('a dropped part of 100,000 faces is a certified hull of 500, with the bytes
   assert.match(await text(page, 'found'), /^10\d,\d{3} faces, 1 component, diagonal .*; no defects\.$/);
   assert.match(await text(page, 'summary'), /outer hull of 500 faces, void [\d.]+ %, at most [\d.]+ from the mesh/);
   assert.match(await text(page, 'summary'), /certified: yes, the file as written encloses the original/);
-  assert.equal(await text(page, 'command'), 'prohull build part.stl -o part_hull.stl --faces 500');
+  assert.equal(await text(page, 'command'), 'prohull build part.stl -o part_hull.stl --faces 500 --hierarchy part.phull');
   const hull = await saved(page, 'save'), own = hash(hull.bytes);
   assert.equal(own, hash(await commanded(page, hull)));
   const certificate = await saved(page, 'save-certificate');
-  run('build', part, '-o', join(scratch, 'same.stl'), '--faces', '500', '--certificate', join(scratch, 'same.phcert'));
+  run('build', part, '-o', join(scratch, 'same.stl'), '--faces', '500', '--hierarchy', join(scratch, 'same.phull'), '--certificate', join(scratch, 'same.phcert'));
   assert.equal(hash(certificate.bytes), hash(readFileSync(join(scratch, 'same.phcert'))));
   if (existsSync(checker ?? '')) execFileSync(checker, [certificate.path, hull.path, part]);
   // The levels are there at once, and what is saved is the level that is shown.
@@ -104,6 +104,18 @@ test('the slider shows a level, which is saved, and the level box is that of the
   const level = await saved(page, 'save');
   assert.equal(String(level.bytes.readUInt32LE(80)), faces.replace(',', ''));
   assert.equal(hash(level.bytes), hash(await commanded(page, level)));
+  const all = await saved(page, 'save-levels'), again = join(scratch, 'again.stl');
+  assert.equal(basename(all.path), 'torus.phull');
+  run('lod', all.path, '-o', again, '--faces', faces.replace(',', ''));
+  assert.equal(hash(level.bytes), hash(readFileSync(again)));
+  await page.setChecked('#want-levels', false);
+  await settled(page);
+  assert.equal(await page.locator('#level').count(), 0);
+  assert.ok(await page.isHidden('#save-levels'));
+  assert.equal((await text(page, 'command')).split('\n')[1], 'prohull build torus.ply -o torus_hull.stl --faces 300');
+  const hull = await saved(page, 'save');
+  assert.equal(hash(hull.bytes), hash(await commanded(page, hull)));
+  assert.match(await page.evaluate(() => location.hash), /levels=0/);
   await page.selectOption('#want-make', 'spheres');
   await settled(page);
   assert.equal(await page.locator('#level').count(), 0);
@@ -175,6 +187,64 @@ test('cancel answers at once', {skip}, async () => {
   await closed(page);
 });
 
+test('saving does not end what is made, and a result of other settings is marked', {skip}, async () => {
+  const page = await opened(), isMarked = () => page.isVisible('#old');
+  await page.setInputFiles('#file', sampleFile('pony', 100000, 'part.stl'));
+  await settled(page);
+  assert.ok(!await isMarked());
+  await page.setChecked('#want-tight', true);
+  await page.waitForFunction(() => document.getElementById('stage-name').textContent === 'build');
+  assert.ok(await isMarked());
+  const before = await saved(page, 'save');
+  assert.equal(await page.evaluate(() => document.documentElement.dataset.busy), 'yes');
+  await settled(page);
+  assert.ok(!await isMarked());
+  assert.match(await text(page, 'command'), /--tight/);
+  assert.notEqual(hash((await saved(page, 'save')).bytes), hash(before.bytes));
+  await page.fill('#want-faces', '3');
+  await page.press('#want-faces', 'Enter');
+  await settled(page);
+  assert.ok(await isMarked());
+  assert.equal(await text(page, 'age'), 'The result was made with other settings.');
+  await page.fill('#want-faces', '400');
+  await page.press('#want-faces', 'Enter');
+  await page.click('#cancel');
+  await settled(page);
+  assert.ok(await isMarked());
+  await page.click('#make');
+  await settled(page);
+  assert.ok(!await isMarked());
+  assert.match(await text(page, 'summary'), /outer hull of 400 faces/);
+  await closed(page);
+});
+
+test('distances from an open part are those that the commands tell', {skip}, async () => {
+  const page = await opened({fragment: '#make=pieces&to=obj'}), part = join(scratch, 'open.off');
+  writeFileSync(part, 'OFF\n8 10 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n' +
+      [[0, 2, 1], [0, 3, 2], [0, 1, 5], [0, 5, 4], [1, 2, 6], [1, 6, 5], [2, 3, 7], [2, 7, 6], [3, 0, 4], [3, 4, 7]].map((f) => `3 ${f.join(' ')}\n`).join(''));
+  await dropped(page, part);
+  for (const [make, command, args] of [['pieces', 'convex', ['--pieces', '16']], ['spheres', 'spheres', ['--count', '16']]]) {
+    await page.selectOption('#want-make', make);
+    await settled(page);
+    const out = `open_${make}.${make === 'pieces' ? 'obj' : 'json'}`, lines = execFileSync(process.env.PROHULL, [command, part, '-o', out, ...args], {cwd: scratch, encoding: 'utf8'}).split('\n');
+    for (const line of await page.locator('#summary li').allTextContents()) assert.ok(lines.some((own) => own.trim() === line), `${make}: ${line}`);
+    assert.match(await text(page, 'summary'), /its openings count as closed, and from its triangles alone it is at most/);
+  }
+  await closed(page);
+});
+
+test('a part that was dropped is no sample, and one that is too large has no diagonal', {skip}, async () => {
+  const page = await opened({fragment: '#sample=torus'});
+  await settled(page);
+  assert.equal(await page.inputValue('#sample'), 'torus');
+  const part = join(scratch, 'far.obj');
+  writeFileSync(part, 'v 0 0 1e200\nv 1 0 0\nv 0 1 0\nf 1 2 3\n');
+  await dropped(page, part);
+  assert.equal(await page.inputValue('#sample'), '');
+  assert.match(await text(page, 'found'), /^1 face, 1 component, too large to be measured; /);
+  await closed(page);
+});
+
 /** Drops a folder: entries as a browser makes them, which give what is in a folder piece by piece. */
 async function droppedFolder(page, folder) {
   const files = readdirSync(folder, {recursive: true, withFileTypes: true}).filter((entry) => entry.isFile())
@@ -233,7 +303,15 @@ test('the folder of a robot becomes a zip with a certified hull of each mesh, an
   await settled(page);
   assert.equal(await text(page, 'problem'), 'Cancelled.');
   assert.ok(await page.isDisabled('#save-robot'));
-  await page.setInputFiles('#folder', folder);
+  assert.equal(await text(page, 'age'), 'Nothing was made to the end.');
+  await page.evaluate(() => new MutationObserver((records, observer) => {
+    const button = document.querySelector('#links button');
+    if (button) {
+      observer.disconnect();
+      button.click();  // does not end the work
+    }
+  }).observe(document.getElementById('links'), {childList: true}));
+  await page.click('#make');
   await settled(page);
   assert.equal(await text(page, 'problem'), '');
   assert.equal(await text(page, 'found'), '3 links, 4 meshes.');
@@ -267,7 +345,7 @@ test('a robot of a stranger stays harmless', {skip}, async () => {
   const {strToU8, zipSync} = createRequire(import.meta.url)('fflate'), page = await opened({fragment: '#faces=100&distance=5'});
   const tetrahedron = strToU8('v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n'), html = '<img src=x onerror=alert(1)>';
   const link = (name, file) => `<link name="${name.replaceAll('<', '&lt;')}"><visual><geometry><mesh filename="${file}"/></geometry></visual></link>`;
-  const files = {'../up.obj': tetrahedron, '/etc/a.obj': tetrahedron, [`b/${html}.obj`]: tetrahedron, 'b/broken.stl': strToU8('x'), 'b/z.urdf': strToU8('<robot/>'), 'b/report.json': strToU8('{}'),
+  const files = {'../up.obj': tetrahedron, '/etc/a.obj': tetrahedron, [`b/${html}.obj`]: tetrahedron, 'b/broken.stl': strToU8('x'), 'b/z.urdf': strToU8('<robot/>'), 'b/report.json': strToU8('{}'), '__MACOSX/b/._a.urdf': strToU8('x'), 'b/._d.urdf': strToU8('x'),
     [`b/${html}.urdf`]: strToU8(`<robot>${link('../../up', '../etc/a.obj')}${link(html, `${html.replaceAll('<', '&lt;')}.obj`)}${link('c', '../../up.obj')}${link('d', 'broken.stl')}${link('e', 'e.dae')}</robot>`)};
   const path = join(scratch, 'stranger.zip');
   writeFileSync(path, zipSync(files));
@@ -286,13 +364,35 @@ test('a robot of a stranger stays harmless', {skip}, async () => {
   await settled(page);
   assert.match(await text(page, 'problem'), /^b\/z\.urdf: line 1: the robot has no links/);
   for (const [name, content, says] of [['noise.zip', Buffer.alloc(99), /^noise\.zip: it cannot be unpacked/], ['none.zip', zipSync({'a.txt': tetrahedron}), /^There is no \.urdf file/],
-    ['mesh.zip', zipSync({'x/a.obj': tetrahedron}), /^$/]]) {
+    ['mesh.zip', zipSync({'x/a.obj': tetrahedron, '__MACOSX/x/._a.obj': tetrahedron}), /^$/]]) {
     writeFileSync(join(scratch, name), content);
     await page.setInputFiles('#file', join(scratch, name));
     await settled(page);
     assert.match(await text(page, 'problem'), says, name);
   }
   assert.match(await text(page, 'summary'), /certified: yes/);
+  await closed(page);
+});
+
+test('of a robot with dirty meshes it is told what is proven', {skip}, async () => {
+  const {strToU8, zipSync} = createRequire(import.meta.url)('fflate'), page = await opened();
+  const corners = 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv nan 0 0\n', faces = ['f 1 3 2', 'f 1 2 4', 'f 1 4 3', 'f 2 3 4', 'f 1 2 5'];
+  const meshes = {whole: faces.slice(0, 4), open: faces.slice(0, 3), nan: faces, flat: faces.slice(0, 1)};
+  const links = Object.keys(meshes).map((name) => `<link name="${name}"><visual><geometry><mesh filename="${name}.obj"/></geometry></visual></link>`);
+  const path = join(scratch, 'dirty.zip');
+  writeFileSync(path, zipSync({'dirty.urdf': strToU8(`<robot name="dirty">${links.join('')}</robot>`),
+    ...Object.fromEntries(Object.entries(meshes).map(([name, own]) => [`${name}.obj`, strToU8(corners + own.join('\n'))]))}));
+  await page.setInputFiles('#file', path);
+  await settled(page);
+  assert.deepEqual((await rows(page)).map((cells) => cells[4]), ['yes', 'yes', 'yes', 'yes']);
+  const notes = await page.locator('#link-notes li').allTextContents();
+  for (const [i, says] of [
+    /^open, .*: its openings count as closed, and from its triangles alone it is at most [\d.]+ mm$/,
+    /^open, .*: proven: it covers every triangle of the original, and its inside with its openings closed by 1 face$/,
+    /^nan, .*: proven: it encloses the finite triangles of the original$/,
+    /^flat, .*: the triangles are flat: the hull is one of a thin solid around them$/,
+    /^flat, .*: proven: it covers every triangle of the original$/].entries()) assert.match(notes[i], says);
+  assert.equal(notes.length, 5);
   await closed(page);
 });
 
@@ -378,7 +478,7 @@ test('on a phone, by keys, in the dark', {skip}, async () => {
     if (id) assert.ok(outline !== 'none' && label, id);
     reached.add(id);
   }
-  for (const id of ['open', 'sample', 'want-make', 'want-faces', 'want-distance', 'want-side', 'want-gap', 'want-tight', 'want-to', 'save', 'level'])
+  for (const id of ['open', 'sample', 'want-make', 'want-faces', 'want-distance', 'want-side', 'want-gap', 'want-tight', 'want-levels', 'want-to', 'save', 'save-levels', 'level'])
     assert.ok(reached.has(id), id);
   assert.ok(await inside());
   await closed(page);

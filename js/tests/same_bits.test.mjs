@@ -83,7 +83,7 @@ test('distances of a summary, down to their rounding', {skip: !hasProgram && 'th
   const file = sample('torus', 2000), mesh = await engine.read(readFileSync(file), 'torus.ply'), report = join(scratch, 'far.json');
   for (const faces of [5000, 100]) {
     run('build', file, '-o', join(scratch, 'far.ply'), '--faces', String(faces), '--report', report);
-    assert.equal(engine.build(mesh, faces, {summaryOf: 'far.ply'}).distance, JSON.parse(readFileSync(report)).hull.verdict.distance_to_triangles.upper);
+    assert.equal(engine.build(mesh, faces, {summaryOf: 'far.ply'}).distanceToTriangles, JSON.parse(readFileSync(report)).hull.verdict.distance_to_triangles.upper);
   }
 });
 

@@ -187,8 +187,8 @@ void check_float32_spacing(const TriangleMesh& mesh) {
     throw InputError(Defect::NonFiniteCoordinate,
                      fmt::format("float32 numbers, which the file has, are {:.2g} apart at its coordinates of up to "
                                  "{:.9g}; that is too coarse for a mesh that is {:.3g} across; write a .ply, .obj "
-                                 "or .off file, which keep doubles, or move the mesh to the origin (`prohull build` "
-                                 "does with --recenter)",
+                                 "or .off file, which keep doubles, or move the mesh to the origin, as `prohull build "
+                                 "--recenter` does",
                                  spacing, most, diagonal));
 }
 

@@ -152,7 +152,7 @@ FileContent only_mesh(std::string_view bytes, const std::filesystem::path& name)
   if (meshes.empty())
     fail_to_decompress(name,
                        "it has no .ply, .obj, .off, .stl or .glb file, nor another mesh; name a 3MF "
-                       "file .3mf, or say so by --in-format in a pipe");
+                       "file .3mf");
   if (meshes.size() > 1)
     fail_to_decompress(
         name, fmt::format("it has more than one mesh, {} and {}; extract the one you mean", meshes[0], meshes[1]));

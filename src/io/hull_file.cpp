@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "io/append.h"
-#include "io/atomic_file.h"
 #include "io/byte_cursor.h"
+#include "io/file.h"
 #include "io/file_content.h"
 #include "prohull/error.h"
 
@@ -109,7 +109,7 @@ std::string unpacked(std::string_view frame, const std::filesystem::path& name) 
 
 }  // namespace
 
-void save_hull(const std::filesystem::path& path, const ProgressiveHull& hull) {
+std::string hull_content(const ProgressiveHull& hull) {
   const std::string payload = encoded(hull);
   const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), &ZSTD_freeCCtx);
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, kCompressionLevel);
@@ -117,13 +117,13 @@ void save_hull(const std::filesystem::path& path, const ProgressiveHull& hull) {
   std::string frame(ZSTD_compressBound(payload.size()), '\0');
   frame.resize(ZSTD_compress2(context.get(), frame.data(), frame.size(), payload.data(), payload.size()));
 
-  std::string start(kHullMagic);
-  append_bytes(start, kVersion);
-  AtomicFile file(path);
-  file.write(start);
-  file.write(frame);
-  file.commit();
+  std::string content(kHullMagic);
+  append_bytes(content, kVersion);
+  content += frame;
+  return content;
 }
+
+void save_hull(const std::filesystem::path& path, const ProgressiveHull& hull) { write_file(path, hull_content(hull)); }
 
 ProgressiveHull load_hull(const std::filesystem::path& path) { return load_hull(read_file(path), path); }
 

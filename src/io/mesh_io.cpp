@@ -89,9 +89,9 @@ const FormatTraits& format_of(std::string_view content, const std::filesystem::p
   if (named == &traits(MeshFormat::Stl) && !found && is_text(content) && is_obj_keyword(first_word(content)))
     found = &traits(MeshFormat::Obj);
   if (named && found && named->read != found->read)
-    fail(name.string(), {Place::Unit::Line, 1},
-         fmt::format("the name says {}, but the content is {}; name it {}, or say so by --in-format in a pipe",
-                     named->name, found->name, found->extension));
+    fail(
+        name.string(), {Place::Unit::Line, 1},
+        fmt::format("the name says {}, but the content is {}; name it {}", named->name, found->name, found->extension));
   if (named) return *named;
   if (found) return *found;
   if (is_obj_keyword(first_word(content))) return traits(MeshFormat::Obj);
@@ -106,8 +106,7 @@ const FormatTraits& format_of(std::string_view content, const std::filesystem::p
   if (content.empty()) throw InputError(Defect::UnknownFormat, fmt::format("{}: it is empty", name.string()));
   throw InputError(Defect::UnknownFormat,
                    fmt::format("{}: neither its name nor its content is that of a PLY, OBJ, OFF, STL, GLB or another "
-                               "file that is read; give it the suffix of its format, or name that by --in-format in a "
-                               "pipe",
+                               "file that is read; give it the suffix of its format",
                                name.string()));
 }
 

@@ -40,6 +40,8 @@ printf 'ray,t,face,x,y,z,entering\n0,0.25,0,0.25,0.25,0,1\n' >rays_expected.csv
 expect 0 "through pipes" sh -c "$prohull build - --faces 500 -o - --out-format stl <rock.ply >piped.stl"
 says err "through pipes: the summary" "standard output: outer hull of 500 faces"
 same "through pipes" piped.stl plain.stl
+expect 3 "an input of no known format" sh -c "echo hello | $prohull info -"
+says err "an input of no known format" "give it the suffix of its format; --in-format names its format"
 expect 0 "an input without magic bytes" sh -c "$prohull info - --in-format obj <finest.obj"
 says out "an input without magic bytes" "standard input"
 expect 0 "a mesh by another name" $prohull lod rock.phull -o level.tmp --out-format stl

@@ -122,7 +122,7 @@ TEST(Float32Hull, RefusesWhatIsTooFarFromTheOriginForItsSize) {
       refusal_of(10, utm),
       "float32 numbers, which the file has, are 0.5 apart at its coordinates of up to 5400010; that is too coarse "
       "for a mesh that is 34.6 across; write a .ply, .obj or .off file, which keep doubles, or move the mesh to the "
-      "origin (`prohull build` does with --recenter)");
+      "origin, as `prohull build --recenter` does");
   for (const double size : {0.1, 1.0, 100.0}) EXPECT_NE(refusal_of(size, utm), "") << size;
   EXPECT_EQ(refusal_of(0.5001 / kMaxFloat32Spacing, utm), "");
   for (const double size : {1e-30, 1.0, 1e30}) EXPECT_EQ(refusal_of(size, {}), "") << size;

@@ -77,7 +77,7 @@ TEST(Zip, WithTheDataOfAGltfFileIsAnError) {
 TEST(Zip, WithoutOrWithSeveralMeshesIsAnError) {
   expect_refused(zipped({{"readme.txt", "hello"}}), "a.zip",
                  "a.zip: cannot decompress: it has no .ply, .obj, .off, .stl or .glb file, nor another mesh; name "
-                 "a 3MF file .3mf, or say so by --in-format in a pipe");
+                 "a 3MF file .3mf");
   expect_refused(zipped({{"a.off", kOff}, {"b.ply", kOff}}), "a.zip",
                  "a.zip: cannot decompress: it has more than one mesh, a.off and b.ply; extract the one you mean");
 }
@@ -103,7 +103,7 @@ TEST(Zip, WithoutMembersHasNoMesh) {
   expect_refused(
       "PK\x05\x06" + std::string(18, '\0'), "a.zip",
       "a.zip: cannot decompress: it has no .ply, .obj, .off, .stl or .glb file, nor another mesh; name a 3MF "
-      "file .3mf, or say so by --in-format in a pipe");
+      "file .3mf");
 }
 
 TEST(Zip, ThatIsDamagedIsAnError) {

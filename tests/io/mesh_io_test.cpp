@@ -44,7 +44,7 @@ TEST(MeshFormat, IsToldByTheContentIfTheNameHasNone) {
   expect_refused(
       "hello", "part",
       "part: neither its name nor its content is that of a PLY, OBJ, OFF, STL, GLB or another file that is read; "
-      "give it the suffix of its format, or name that by --in-format in a pipe",
+      "give it the suffix of its format",
       Defect::UnknownFormat);
   expect_refused("ISO-10303-21;\n", "a.STEP",
                  "a.STEP: it holds surfaces and no triangles; export it as STL, OBJ or PLY where it was made",
@@ -55,12 +55,9 @@ TEST(MeshFormat, IsToldByTheContentIfTheNameHasNone) {
 }
 
 TEST(MeshFormat, ThatTheContentContradictsIsAnError) {
-  expect_refused(
-      "OFF\n0 0 0\n", "a.ply",
-      "a.ply: line 1: the name says PLY, but the content is OFF; name it .off, or say so by --in-format in a pipe");
-  expect_refused(
-      "solid\nendsolid\n", "a.obj",
-      "a.obj: line 1: the name says OBJ, but the content is STL; name it .stl, or say so by --in-format in a pipe");
+  expect_refused("OFF\n0 0 0\n", "a.ply", "a.ply: line 1: the name says PLY, but the content is OFF; name it .off");
+  expect_refused("solid\nendsolid\n", "a.obj",
+                 "a.obj: line 1: the name says OBJ, but the content is STL; name it .stl");
 }
 
 TEST(ReadMesh, PointsToWhatReadsAProgressiveHull) {

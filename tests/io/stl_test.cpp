@@ -57,10 +57,7 @@ TEST(Stl, ReadsAsciiOnOneLineOrWithOtherLineEnds) {
 TEST(Stl, KnowsAnObjFileByItsContent) {
   std::string obj = "# a part\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   obj.resize(200, ' ');
-  expect_refused(
-      obj, "a.stl",
-      "a.stl: line 1: the name says STL, but the content is OBJ; name it .obj, or say so by --in-format in a "
-      "pipe");
+  expect_refused(obj, "a.stl", "a.stl: line 1: the name says STL, but the content is OBJ; name it .obj");
 }
 
 TEST(Stl, JoinsSeveralSolids) {

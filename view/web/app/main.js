@@ -3,12 +3,12 @@
 import * as prohull from 'prohull';
 import {readFragment, writeFragment} from '../src/act/address.js';
 import {readObjects} from '../src/data/objects.js';
-import {atMost, byId, counted, el, grouped, short} from '../src/panel/dom.js';
+import {byId, counted, el, grouped, short} from '../src/panel/dom.js';
 import {View} from '../src/view.js';
 import {MOST_MEGABYTES, bytesOf, treeOfEntries, treeOfFiles, treeOfZip} from './robot/folder.js';
 import {Robots} from './robot/robots.js';
 import {READ} from './robot/urdf.js';
-import {commandOf, fillForm, formValues, isOneFile, optionsFor, pieceName, showOptions, stem, wanted} from './wanted.js';
+import {commandOf, fillForm, formText, formValues, isOneFile, optionsFor, pieceName, showOptions, stem, wanted} from './wanted.js';
 
 const MOST_FACES = 7e6;         // of the 4 GB that WebAssembly has, the scene of a hull takes 540 bytes for each face
 const SAMPLES = {bracket: 20000, pony: 100000, knot: 20000, asteroid: 20000, gyroid: 40000, torus: 5000};
@@ -18,7 +18,8 @@ const CERTIFIED = /\.(stl|obj|ply|off)(\.gz)?$/i;  // files that prohull_check r
 
 let part = null;               // {name, bytes, mesh, inspection}, and of a sample what it is called
 let made = null;               // {want, hull, isLevel}
-let view = null, job = null, measuring = 0, robots;
+let current = null;            // formText() of what is shown, if that was made to the end
+let view = null, job = null, aside = 0, robots;
 let shown = {};                // of the address: what the picture shows
 
 const cameraOf = (values) => Object.fromEntries(Object.entries(values).filter(([key]) => CAMERA.includes(key)));
@@ -43,9 +44,34 @@ function tellProgress(stage, fraction) {
   byId('stage-name').textContent = stage;
 }
 
-/** A worker that still measures a level is left alone. */
+/** Where the form asks for something else than is shown, a button makes that. */
+function tellAge() {
+  const isOld = (part || robots.isOpen) && current !== formText();
+  byId('old').hidden = !isOld || (job !== null && current === null);
+  byId('age').textContent = current === null ? 'Nothing was made to the end.' : 'The result was made with other settings.';
+  byId('make').hidden = job !== null;
+}
+
+function setCurrent(form) {
+  current = form;
+  tellAge();
+}
+
+/** A worker that still does work beside is left alone. */
 function releaseIfIdle() {
-  if (!job && measuring === 0) prohull.release();
+  if (!job && aside === 0) prohull.release();
+}
+
+/** Does this while other work goes on. */
+async function beside(work) {
+  ++aside;
+  try {
+    await work();
+  } catch (error) {
+    complain(error.message.replaceAll('\n', ' '));
+  }
+  --aside;
+  releaseIfIdle();
 }
 
 /** Does this and nothing else; what ran before ends. */
@@ -55,6 +81,7 @@ async function run(work) {
   complain('');
   tellProgress('read', 0);
   setRunning(true);
+  tellAge();
   try {
     await work({signal: own.signal, progress: tellProgress});
   } catch (error) {
@@ -64,6 +91,7 @@ async function run(work) {
   job = null;
   releaseIfIdle();
   setRunning(false);
+  tellAge();
   refreshed();  // a level that was chosen meanwhile is measured now
 }
 
@@ -97,7 +125,7 @@ function showPart() {
   byId('name').textContent = name;
   const wrong = found.length === 0 ? 'no defects' : found.map(([what, count]) => `${grouped(count)} ${what}`).join(', ');
   byId('found').textContent = `${counted(faces, 'face', 'faces')}, ${counted(components, 'component', 'components')}, ` +
-      `diagonal ${short(diagonal)}; ${wrong}.`;
+      `${Number.isFinite(diagonal) ? `diagonal ${short(diagonal)}` : 'too large to be measured'}; ${wrong}.`;
 }
 
 function refuseFaces(name, faces) {
@@ -109,8 +137,8 @@ function refuseFaces(name, faces) {
 /** An empty page. */
 function forget() {
   for (const id of ['result', 'name']) byId(id).hidden = true;
-  byId('found').textContent = '';
-  part = made = null;
+  byId('found').textContent = byId('sample').value = '';
+  part = made = current = null;
   robots.close();
   showOptions();
   clear('Drop a part or the folder of a robot on this page, open a file, or take a sample.');
@@ -128,6 +156,7 @@ async function takePart(next, fragment, running) {
   running.signal.throwIfAborted();
   refuseFaces(next.name, next.inspection.faces);
   part = next;
+  byId('sample').value = part.sample ?? '';
   showPart();
   const alone = prohull.scene(null, {...part.mesh, name: part.name}, {signal: running.signal})
       .then((scene) => made || running.signal.aborted ? null : draw(scene, cameraOf(fragment)));
@@ -166,30 +195,28 @@ function sceneOf(want, hull) {
 }
 
 async function make({signal, progress}, fragment) {
-  const want = wanted(part);
+  const form = formText(), want = wanted(part);
   const hull = await makers[want.make](want, {...await optionsFor(want, part), signal, progress});
-  made = {want, hull};
   const scene = await prohull.scene(sceneOf(want, hull), {...part.mesh, name: part.name}, {side: want.side, signal, progress});
   signal.throwIfAborted();
+  made = {want, hull};
   await draw(scene, fragment);
   view.onRefresh = refreshed;
   showResult();
   remember();
+  setCurrent(form);
 }
 
-/** Of pieces and spheres; the words are those of `prohull convex`. */
-function summaryOf(want, {pieces, balls, reach, notes, withinBounds, certified}) {
-  const made = pieces ? counted(pieces.length, 'convex piece', 'convex pieces') : counted(balls.length / 4, 'sphere', 'spheres');
-  return [`${want.out}: ${made}, at most ${atMost(reach)} from the mesh`, ...notes,
-    ...(withinBounds ? [] : ['NOT within the bounds asked for; allow a larger number, or larger bounds']),
-    `certified: ${certified ? 'yes, every finite triangle of the original is covered' : 'NO: nothing can be saved'}`];
-}
+/** Makes what the form asks for now. */
+const makeAgain = () => run((running) => robots.isOpen ? robots.make(running) : make(running, cameraOf(shown)));
 
 function showResult() {
   const {want, hull} = made;
   byId('result').hidden = false;
   byId('slider').replaceChildren(...[byId('level')?.closest('section')].filter(Boolean));  // the levels stand above the rest
-  byId('summary').replaceChildren(...(hull.summary ?? summaryOf(want, hull)).map((line) => el('li', {}, line)));
+  const missed = want.make === 'hull' || hull.withinBounds ? [] : ['NOT within the bounds asked for; allow a larger number, or larger bounds'];
+  byId('summary').replaceChildren(...[...hull.summary, ...missed].map((line) => el('li', {}, line)));
+  byId('save-levels').hidden = !(hull.levels && hull.certified);
   byId('save-certificate').hidden = !(want.make === 'hull' && hull.certified && CERTIFIED.test(part.name) && want.to !== 'glb');
   byId('save').disabled = !hull.certified;
   refreshed();
@@ -211,20 +238,14 @@ function refreshed() {
   byId('save').textContent = `Save ${made.want.out}${faces ? `, ${grouped(faces)} faces` : ''}`;
   byId('save-certificate').disabled = faces !== null;
   clearTimeout(resting);
-  if (faces !== null && !job) resting = setTimeout(() => measure(faces).catch((error) => complain(error.message)), REST);
+  if (faces !== null && !job) resting = setTimeout(() => beside(() => measure(faces)), REST);
 }
 
 /** Bounds the distance of a level, which then counts among those of the panel. */
 async function measure(faces) {
   const {active} = view, {levels} = made.hull;
   if (active.stops.some((stop) => stop.faces === faces)) return;
-  ++measuring;
-  const {lower, upper, farthest} = await prohull.level(levels, faces)
-      .then((level) => prohull.distance(level, part.mesh, {relativeGap: 0.02}))
-      .finally(() => {
-        --measuring;
-        releaseIfIdle();
-      });
+  const {lower, upper, farthest} = await prohull.level(levels, faces).then((level) => prohull.distance(level, part.mesh, {relativeGap: 0.02}));
   if (active !== view.active) return;
   active.stops.push({faces, lower, upper, farthest: [...farthest]});
   active.stops.sort((a, b) => a.faces - b.faces);
@@ -258,14 +279,22 @@ async function contentOf({want, hull}, faces) {
   return prohull.writeSeveral(hull.pieces.map((piece, i) => ({...piece, name: pieceName(want, i)})), want.out);
 }
 
-const saveHull = () => run(async () => save(await contentOf(made, finerFaces()), made.want.out));
+const saveHull = async () => {
+  const {out} = made.want;
+  save(await contentOf(made, finerFaces()), out);
+};
 
-const saveCertificate = () => run(async () => {
-  const {want, hull} = made, {gap = 0, maxDistance} = await optionsFor(want, part);
-  save(await prohull.certificate({vertices: hull.vertices, faces: hull.faces}, part.bytes, part.name, {
-    side: want.side, isStl: /\.stl(\.gz)?$/i.test(part.name), gap, provenGap: hull.gap, distance: hull.distance,
+const saveLevels = async () => {
+  const {want, hull} = made;
+  save(await prohull.writeLevels(hull.levels), `${want.stem}.phull`);
+};
+
+const saveCertificate = async () => {
+  const {want, hull} = made, {bytes, name} = part, {gap = 0, maxDistance} = await optionsFor(want, part);
+  save(await prohull.certificate({vertices: hull.vertices, faces: hull.faces}, bytes, name, {
+    side: want.side, isStl: /\.stl(\.gz)?$/i.test(name), gap, provenGap: hull.gap, distance: hull.distanceToTriangles,
     ...(maxDistance === undefined ? {} : {maxDistance})}), `${want.stem}_hull.phcert`);
-});
+};
 
 async function copyCommand() {
   const text = byId('command').textContent;
@@ -300,12 +329,12 @@ function listen() {
   byId('options').addEventListener('change', () => {
     showOptions(robots.isOpen);
     remember();
-    if (robots.isOpen) run((running) => robots.make(running));
-    if (part) run((running) => make(running, cameraOf(shown)));
+    if (part || robots.isOpen) makeAgain();
   });
+  byId('make').onclick = makeAgain;
   byId('cancel').onclick = () => job?.abort();
-  byId('save').onclick = saveHull;
-  byId('save-certificate').onclick = saveCertificate;
+  for (const [id, saving] of [['save', saveHull], ['save-levels', saveLevels], ['save-certificate', saveCertificate]])
+    byId(id).onclick = () => beside(saving);
   byId('copy').onclick = copyCommand;
   const over = (is) => (event) => {
     event.preventDefault();
@@ -332,13 +361,12 @@ function open() {
   byId('most').textContent = `${MOST_MEGABYTES} MB and ${grouped(MOST_FACES)} faces`;
   byId('sample').append(...Object.keys(SAMPLES).map((name) => el('option', {value: name}, name)));
   fillForm(fragment);
-  robots = new Robots({run, draw, clear, save, refuseFaces});
+  robots = new Robots({run, beside, setCurrent, draw, clear, save, refuseFaces});
   document.documentElement.dataset.ready = 'yes';
   if (typeof WebAssembly !== 'object') return complain('This browser has no WebAssembly, which this page needs to build hulls. Use another browser, or the program prohull.');
   listen();
   keepOffline();
   if (!Object.hasOwn(SAMPLES, fragment.sample ?? '')) return;
-  byId('sample').value = fragment.sample;
   take(() => sampleOf(fragment.sample), fragment);
 }
 

@@ -3,13 +3,16 @@
 import * as prohull from 'prohull';
 import {byId, grouped} from '../src/panel/dom.js';
 
-const DEFAULTS = {make: 'hull', faces: '500', count: '16', distance: '', void: '', side: 'outer', gap: '', tight: '', to: 'stl'};
+const DEFAULTS = {make: 'hull', faces: '500', count: '16', distance: '', void: '', side: 'outer', gap: '', tight: '0', levels: '1', to: 'stl'};
 const field = (name) => byId(`want-${name}`);
-const kept = (name) => field(name).type === 'checkbox' ? (field(name).checked ? '1' : '') : field(name).value.trim();
+const kept = (name) => field(name).type === 'checkbox' ? (field(name).checked ? '1' : '0') : field(name).value.trim();
 
 /** What the form holds, for the address: what is not as it is at first. */
 export const formValues = () => Object.fromEntries(Object.keys(DEFAULTS)
     .map((name) => [name, kept(name)]).filter(([name, value]) => value !== DEFAULTS[name]));
+
+/** All that it holds, to be compared. */
+export const formText = () => JSON.stringify(formValues());
 
 /** Values that the form does not take are left. */
 export function fillForm(values) {
@@ -22,15 +25,20 @@ export function fillForm(values) {
   showOptions();
 }
 
+/** Other hulls have none, or are larger if they have. */
+const canHaveLevels = () => ['side', 'tight', 'gap', 'distance', 'void'].every((name) => kept(name) === DEFAULTS[name]);
+
 /** Only the options of what is to be made: that is chosen for parts, and hulls for robots. */
 export function showOptions(isRobot = false) {
   for (const element of document.querySelectorAll('[data-for]'))
     element.hidden = !element.dataset.for.split(' ').includes(isRobot ? 'robot' : kept('make'));
+  if (!canHaveLevels()) field('levels').labels[0].hidden = true;
   field('distance').placeholder = isRobot ? 'any; mm or 1%' : 'any; 0.5 or 1%';
 }
 
 const quoted = (text) => /^[\w.%+:,/-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
-const quotedFile = (name) => quoted(name.startsWith('-') ? `./${name}` : name);
+const plain = (name) => name.startsWith('-') ? `./${name}` : name;
+const quotedFile = (name) => quoted(plain(name));
 
 /** The name without its suffix. */
 export const stem = (name) => name.replace(/\.gz$/i, '').replace(/\.[^.]*$/, '') || 'part';
@@ -65,7 +73,7 @@ export function wanted(part) {
   const values = Object.fromEntries(Object.keys(DEFAULTS).map((name) => [name, kept(name)]));
   for (const name of ['faces', 'count', 'void']) check(name, RANGES[name === 'count' ? values.make : name]);
   const suffix = values.make === 'spheres' ? 'json' : values.to, own = stem(part.name).replace(/[{}]/g, '_');  // the command fills in {name}
-  return {...values, isTight: values.tight === '1', out: `${own}_${values.make}.${suffix}`, stem: own};
+  return {...values, isTight: values.tight === '1', hasLevels: values.make === 'hull' && values.levels === '1' && canHaveLevels(), out: `${own}_${values.make}.${suffix}`, stem: own};
 }
 
 function check(name, range) {
@@ -90,10 +98,10 @@ export async function optionsFor(want, part) {
   const gap = want.make === 'hull' ? await lengthOf('gap', want.gap, part) : undefined;
   const maxVoidPercent = want.void === '' || want.make === 'spheres' ? undefined : Number(want.void);
   const float32Coordinates = ['stl', 'glb'].includes(want.to);
-  const all = want.make === 'hull' ? {side: want.side, tight: want.isTight, gap, maxDistance, maxVoidPercent, float32Coordinates, summaryOf: want.out}
+  const all = want.make === 'hull' ? {side: want.side, tight: want.isTight, levels: want.hasLevels, gap, maxDistance, maxVoidPercent, float32Coordinates}
       : want.make === 'pieces' ? {pieces: Number(want.count), maxDistance, maxVoidPercent, float32Coordinates}
       : {count: Number(want.count), maxDistance};
-  return Object.fromEntries(Object.entries(all).filter(([, value]) => value !== undefined));
+  return Object.fromEntries(Object.entries({...all, summaryOf: want.out}).filter(([, value]) => value !== undefined));
 }
 
 /** For each mesh of a robot, whose lengths are in metres: bare numbers are millimetres. */
@@ -117,8 +125,8 @@ export function commandOf(want, part, faces) {
     return `${sample}prohull spheres ${file} -o ${out} ${flags([['--count', want.count], bounds[0]])}`;
   const each = isOneFile(want) ? '' : `# writes a file for each piece\n`;
   if (want.make === 'pieces') return `${sample}${each}prohull convex ${file} -o ${out} ${flags([['--pieces', want.count], ...bounds])}`;
-  const levels = quotedFile(`${want.stem}.phull`);
+  const levels = `${want.stem}.phull`;
   const build = `${sample}prohull build ${file} -o ${out} ` +
-      flags([['--faces', want.faces], ...bounds, ['--side', want.side === 'inner' && 'inner'], ['--tight', want.isTight], ['--gap', want.gap]]);
-  return faces === null ? build : `${build} --hierarchy ${levels}\nprohull lod ${levels} -o ${out} --faces ${faces}`;
+      flags([['--faces', want.faces], ...bounds, ['--side', want.side === 'inner' && 'inner'], ['--tight', want.isTight], ['--gap', want.gap], ['--hierarchy', want.hasLevels && plain(levels)]]);
+  return faces === null ? build : `${build}\nprohull lod ${quotedFile(levels)} -o ${out} --faces ${faces}`;
 }

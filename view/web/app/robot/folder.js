@@ -26,12 +26,14 @@ const refuseMany = (count) => {
   if (count > MOST_FILES) throw new InputError(`There are more than ${MOST_FILES.toLocaleString('en')} files. Drop the folder of one robot.`);
 };
 
+const OF_MACOS = /(^|\/)(__MACOSX\/|\._[^/]*$)/;  // with which it accompanies each file
+
 /** Of files with their paths; paths that lead out are left out, and of two files with one path the first is taken. */
 function treeOf(files) {
   const tree = new Map();
   for (const {path, size, read} of files) {
     const tidy = tidied(path.replaceAll('\\', '/'));
-    if (tidy && !tree.has(tidy)) tree.set(tidy, {size, read});
+    if (tidy && !OF_MACOS.test(tidy) && !tree.has(tidy)) tree.set(tidy, {size, read});
   }
   return tree;
 }

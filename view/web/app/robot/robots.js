@@ -3,21 +3,21 @@
 import {strToU8, zipSync} from 'fflate';
 import * as prohull from 'prohull';
 import {atMost, byId, counted, el, grouped, percent} from '../../src/panel/dom.js';
-import {robotOptions} from '../wanted.js';
+import {formText, robotOptions} from '../wanted.js';
 import {packagesOf} from './folder.js';
 import {planOf, scaled, whyLeft, withHulls} from './urdf.js';
 
 const MOST_URDF = 2 ** 25;  // bytes
-const SCOPE = 'Proven of each hull, as written: it encloses the mesh file that is named beside it, scaled as the URDF says. Poses are the URDF\'s, and joints are not looked at.';
+const SCOPE = 'Proven of each hull, as written: what its summary calls certified, of the mesh file that is named beside it, scaled as the URDF says. Poses are the URDF\'s, and joints are not looked at.';
 
 const text8 = (bytes) => new TextDecoder('utf-8', {fatal: true, ignoreBOM: true}).decode(bytes);  // so that all bytes come back
 const plainName = (path) => path.slice(path.lastIndexOf('/') + 1).replace(/[\\:*?"<>|\x00-\x1f]/g, '_');
 const withoutViews = (key, value) => ArrayBuffer.isView(value) ? [...value] : value;
 
-/** `page` has what main.js does: run, draw, clear, save, refuseFaces. */
+/** `page` has what main.js does: run, beside, setCurrent, draw, clear, save, refuseFaces. */
 export class Robots {
   #page;
-  #robot = null;  // {tree, packages, urdf, plan, outcomes}
+  #robot = null;  // {tree, packages, urdf, plan, outcomes, shown}: of the work whose hull is shown, what came of it
 
   constructor(page) {
     this.#page = page;
@@ -67,8 +67,9 @@ export class Robots {
 
   /** Makes all hulls anew. What is wrong with one mesh concerns its links alone. */
   async make(running) {
-    const robot = this.#robot, want = robotOptions();
+    const robot = this.#robot, form = formText(), want = robotOptions();
     if (!robot.plan) return;
+    this.#page.setCurrent(null);
     robot.outcomes = new Map();
     this.#tell();
     const {works} = robot.plan;
@@ -79,8 +80,9 @@ export class Robots {
       robot.outcomes.set(work, outcome);
       this.#tell();
     }
-    const first = works.find((work) => robot.outcomes.get(work).bytes);
-    if (first) await this.#show(first, running);
+    const all = works.filter((work) => robot.outcomes.get(work).bytes), isShown = (work) => robot.outcomes.get(work) === robot.shown;
+    if (all.length > 0 && !all.some(isShown)) await this.#show(all[0], running);
+    this.#page.setCurrent(form);
   }
 
   async #meshOf({path, scale}, running) {
@@ -99,22 +101,33 @@ export class Robots {
     return verdict.holds ? {bytes, hull, verdict} : {why: `its hull as written is not certified: ${verdict.whyNot}`, hull, verdict};
   }
 
-  async #show(work, running) {
-    const {hull} = this.#robot.outcomes.get(work), mesh = await this.#meshOf(work, running);
+  async #show(work, running = {}) {
+    const robot = this.#robot, outcome = robot.shown = robot.outcomes.get(work), {hull} = outcome;
+    const mesh = await this.#meshOf(work, running);
     const scene = await prohull.scene({name: work.out, vertices: hull.vertices, faces: hull.faces}, {...mesh, name: work.path}, running);
-    running.signal.throwIfAborted();
+    if (robot !== this.#robot || outcome !== robot.shown) return;  // meanwhile another one was pressed
     await this.#page.draw(scene, {});
     for (const button of byId('links').querySelectorAll('button')) button.setAttribute('aria-pressed', button.dataset.hull === work.out);
   }
 
   #row(link, work) {
-    const {hull, why} = this.#robot.outcomes.get(work) ?? {};
+    const {outcomes, shown} = this.#robot, outcome = outcomes.get(work), {hull, why} = outcome ?? {};
     if (!hull || why) return el('tr', {}, el('th', {scope: 'row'}, link.name), el('td', {colspan: 4}, why ?? '…'));
-    const show = () => this.#page.run((running) => this.#show(work, running));
-    const name = el('button', {'type': 'button', 'aria-pressed': 'false', 'data-hull': work.out, 'title': work.path, 'onclick': show}, link.name);
+    const show = () => this.#page.beside(() => this.#show(work));
+    const name = el('button', {'type': 'button', 'aria-pressed': String(outcome === shown), 'data-hull': work.out, 'title': work.path, 'onclick': show}, link.name);
     return el('tr', {}, el('th', {scope: 'row'}, name), el('td', {}, grouped(hull.faces.length / 3)),
         el('td', {}, Number.isFinite(hull.voidRatio) ? percent(hull.voidRatio) : '–'),
-        el('td', {}, `${atMost(1000 * hull.distance)}${hull.withinBounds ? '' : ' (NOT within the bound)'}`), el('td', {}, 'yes'));
+        el('td', {}, `${atMost(1000 * (hull.distanceToSolid ?? hull.distanceToTriangles))}${hull.withinBounds ? '' : ' (NOT within the bound)'}`), el('td', {}, 'yes'));
+  }
+
+  /** What `prohull urdf` notes of a hull, and what is proven of it where that is less than that it encloses the mesh. */
+  #notes({link, out}, {hull, bytes} = {}) {
+    if (!bytes) return [];
+    const {distanceToTriangles: far, distanceToSolid: near = far, notes, summary} = hull;
+    const openings = atMost(1000 * far) === atMost(1000 * near) ? []
+        : [`its openings count as closed, and from its triangles alone it is at most ${atMost(1000 * far)} mm`];
+    const proof = summary.find((line) => line.startsWith('certified: ')).replace('certified: yes, the file as written', 'proven: it');
+    return [...openings, ...notes, ...(/encloses the original$/.test(proof) ? [] : [proof])].map((note) => el('li', {}, `${link}, ${out}: ${note}`));
   }
 
   #tell() {
@@ -122,6 +135,7 @@ export class Robots {
     const left = (plan?.links ?? []).filter(({why}) => why);
     byId('links').replaceChildren(...(plan?.links ?? []).filter(({why}) => !why)
         .flatMap((link) => [...new Set(link.shapes.flatMap(({work}) => work ?? []))].map((work) => this.#row(link, work))));
+    byId('link-notes').replaceChildren(...(plan?.works ?? []).flatMap((work) => this.#notes(work, outcomes.get(work))));
     byId('left-out').replaceChildren(...left.map(({name, why}) => el('li', {}, `${name} keeps what it has: ${why}`)));
     byId('save-robot').disabled = !isDone || withHulls(plan, outcomes).works.length === 0;
   }
