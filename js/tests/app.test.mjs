@@ -319,8 +319,7 @@ test('the folder of a robot becomes a zip with a certified hull of each mesh, an
   assert.deepEqual(shown.map(([link, faces,,, certified]) => [link, faces, certified]),
     ['base_link', 'link1', 'link2', 'link2'].map((link) => [link, '100', 'yes']));
   await page.click('#links tr:last-child button');
-  await settled(page);
-  assert.equal(await page.getAttribute('#links tr:last-child button', 'aria-pressed'), 'true');
+  await page.waitForSelector('#links tr:last-child button[aria-pressed=true]');
   assert.match(await text(page, 'content'), /link2_2_hull\.stl covers arm\/meshes\/visual\/link2_cover\.stl: decided exactly/);
   const zip = await saved(page, 'save-robot'), own = join(scratch, 'arm_own');
   assert.equal(basename(zip.path), 'arm_hulls.zip');
