@@ -38,7 +38,7 @@ room(enclose   OWNS cage closed_solid detail/closed_original detail/summary encl
                                                                                      geometry parallel base prohull/collide
                                                                                      cover/few_vertices cover/polytope)
 
-room(cover     OWNS convex_cover detail/given_options detail/told_notes sphere_cover sweep               MAY enclose construct repair verify wrap hull mesh
+room(cover     OWNS convex_cover detail/cover_summary detail/given_options detail/told_notes sphere_cover sweep               MAY enclose construct repair verify wrap hull mesh
                                                                                      geometry parallel base
                                                                                      prohull/mesh_query prohull/collide)
 room(certificate OWNS certificate                                                MAY verify hull mesh geometry parallel base)

@@ -13,8 +13,7 @@ namespace prohull {
 // What Python and JavaScript tell of a result beside its numbers: its notes, and what its flags say.
 
 inline void add_note_of_estimate(bool is_estimated, std::vector<std::string>& notes) {
-  if (is_estimated)
-    notes.emplace_back("the volume of the mesh is not known: the void is measured against an estimate");
+  if (is_estimated) notes.emplace_back("the volume of the mesh is not known: the void is measured against an estimate");
 }
 
 inline std::vector<std::string> told_notes(const EnclosingHull& hull, const EnclosingHulls& made) {
