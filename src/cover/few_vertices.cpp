@@ -16,6 +16,7 @@
 #include "geometry/largest_coordinate.h"
 #include "geometry/predicates.h"
 #include "prohull/convex_hull.h"
+#include "prohull/detail/float32_hull.h"
 #include "prohull/error.h"
 #include "prohull/hull_builder.h"
 
@@ -165,6 +166,17 @@ class Reduction {
   double least_volume_ = std::numeric_limits<double>::infinity();
 };
 
+/// The polytope, its vertices moved out one by one to float32 coordinates: where it is thinner than these are apart in
+/// space, but not along an axis, that is far less than growing moves them.
+std::optional<TriangleMesh> moved_outwards(const TriangleMesh& polytope, const TriangleMesh& enclosed) {
+  try {
+    TriangleMesh hull = convex_hull(with_float32_coordinates(polytope, HullSide::Outer, NoRoom::Round).mesh);
+    if (hull.face_count() > 0 && encloses(hull, enclosed)) return hull;
+  } catch (const InputError&) {  // too far from the origin
+  }
+  return std::nullopt;
+}
+
 /// The polytope, grown about its middle until it encloses the other one with float32 coordinates.
 std::optional<TriangleMesh> rounded_outwards(const TriangleMesh& polytope, const TriangleMesh& enclosed) {
   const Vec3 center = middle(polytope);
@@ -188,8 +200,10 @@ TriangleMesh with_few_vertices(const TriangleMesh& polytope, std::size_t max_ver
   TriangleMesh result = Reduction(polytope, max_vertices, float32_coordinates).run();
   if (!float32_coordinates) return result;
   // The search may end far outside where the rounding is large against the thickness in some direction.
-  auto rounded = rounded_outwards(with_few_vertices(polytope, max_vertices, false), polytope);
-  return rounded && signed_volume(*rounded) < signed_volume(result) ? *rounded : result;
+  const TriangleMesh few = with_few_vertices(polytope, max_vertices, false);
+  for (auto& other : {rounded_outwards(few, polytope), moved_outwards(few, polytope)})
+    if (other && signed_volume(*other) < signed_volume(result)) result = *other;
+  return result;
 }
 
 }  // namespace prohull::cover

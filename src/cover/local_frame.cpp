@@ -21,7 +21,6 @@ Vec3 farthest_direction(const PerVertex<Vec3>& positions, const Vec3& from, doub
   return most > 0 ? best / std::sqrt(most) : otherwise;
 }
 
-/// At a right angle to a direction of length 1.
 /// Of the solid inside of a closed mesh.
 Vec3 centroid(const TriangleMesh& mesh) {
   const Vec3 from = mesh.positions[VertexId{0}];

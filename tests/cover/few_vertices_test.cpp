@@ -14,6 +14,7 @@
 #include "geometry/predicates.h"
 #include "meshes.h"
 #include "prohull/convex_hull.h"
+#include "prohull/distance.h"
 #include "prohull/enclosure.h"
 #include "prohull/sample.h"
 #include "random.h"
@@ -78,6 +79,11 @@ TEST(FewVertices, RoundsOutwardsToFloat32) {
   EXPECT_LT(check(convex_hull(box({-0.1, -0.7, 0.1}, {0.3, 0.2, 0.3})), 8, true), 1 + 1e-5);
   EXPECT_LT(check(turned_hull(box({-0.1, -0.7, 0.1}, {0.3, 0.2, 0.3})), 8, true), 1 + 1e-5);
   EXPECT_LT(check(tetrahedron({0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}), 4, true), 1 + 1e-5);
+}
+
+TEST(FewVertices, OfAThinPlateFarOutReachLittleFartherThanFloat32NumbersAreApart) {
+  const TriangleMesh plate = turned_hull(box({10, 10, 10}, {10.2, 10.1, 10.0001}));
+  EXPECT_LT(distance_bounds(with_few_vertices(plate, 64, true), plate).upper, 1e-5) << "numbers are 1e-6 apart";
 }
 
 TEST(FewVertices, FindsTheCubeWhoseCornersAreCut) {
