@@ -323,10 +323,20 @@ class Covering {
   /// One piece.
   Material of_convex_hull() const { return {hull_, hull_, hull_, hull_, inside_}; }
 
-  /// The most pieces; or as few as keep the bounds, or fill the mesh.
+  /// For few pieces there is a wide search, which finds better cuts: bounds that those keep ask for no more.
   ConvexCover best_cover(const Material& material) {
-    const CutSearch search = search_of(material);
-    const CutTree tree = tree_of(search, options_.max_pieces, material);
+    const std::size_t most = options_.max_pieces;
+    if (!options_.bounds.any() || most <= kMostPiecesOfWide) return best_cover(material, most);
+    ConvexCover few = best_cover(material, kMostPiecesOfWide);
+    if (few.verdict.certified && few.within_bounds) return few;
+    ConvexCover many = best_cover(material, most);
+    return is_better(few, many) ? few : many;
+  }
+
+  /// The most pieces; or as few as keep the bounds, or fill the mesh.
+  ConvexCover best_cover(const Material& material, std::size_t max_pieces) {
+    const CutSearch search = search_of(material, max_pieces);
+    const CutTree tree = tree_of(search, max_pieces, material);
     Solid solid(material.faces, material.solid, kTolerances[0]);
     const std::size_t most = fewest_parts(tree);
     ConvexCover best = fitted(tree, most, solid, material);
@@ -358,12 +368,12 @@ class Covering {
     return options_.bounds.any() ? cover.within_bounds : cover.volume < (1 + kNoVoid) * material.inside.volume;
   }
 
-  CutSearch search_of(const Material& material) const {
+  CutSearch search_of(const Material& material, std::size_t max_pieces) const {
     ProgressMeter meter(options_.progress, "cut");
     const Frame frame(bounding_box(material.coarse));
     const auto solid = [&](const TriangleMesh& mesh) { return search_solid(mesh, material, frame); };
     return arena_of(options_.threads).execute([&] {
-      return CutSearch(solid(material.coarse), solid(material.coarser), options_.max_pieces, little_void(), meter);
+      return CutSearch(solid(material.coarse), solid(material.coarser), max_pieces, little_void(), meter);
     });
   }
 
@@ -412,6 +422,11 @@ class Covering {
       });
     });
     std::erase_if(result, [](const ConvexPiece& piece) { return piece.mesh.face_count() == 0; });
+    if (result.empty())
+      throw InputError(Defect::NoVolume,
+                       fmt::format("the mesh is only {:g} across, and no piece of it has a volume that numbers hold: "
+                                   "scale the mesh",
+                                   bounding_box(prepared_.original).diagonal()));
     meter.at(1);
     return result;
   }

@@ -28,8 +28,6 @@ struct Effort {
 constexpr Effort kNarrow{15, 3, 1}, kWide{7, 8, 2};
 /// The first cuts decide most: after so many, the wide search tries no more cuts than the narrow one.
 constexpr std::size_t kWideLeaves = 8;
-/// For more pieces the wide search takes too long for what it saves.
-constexpr std::size_t kMostPiecesOfWide = 24;
 /// A cut that saves less, of the volume of the whole convex hull, is not made.
 constexpr double kLeastGain = 1e-5;
 /// Points of parts, for each cut that is tried or looked ahead: 150,000 for 100 pieces of 4 samples. A mesh of many

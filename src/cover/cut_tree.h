@@ -21,6 +21,9 @@ struct CutTree {
 /// Pieces with less void than this, as a share of the solid's volume, fill it, but for rounding.
 inline constexpr double kNoVoid = 1e-6;
 
+/// For more pieces the wide search takes too long for what it saves.
+inline constexpr std::size_t kMostPiecesOfWide = 24;
+
 /// Looks for trees whose leaves have little volume. Deterministic; uses the threads of the arena that it runs in.
 ///
 /// How it works: of each part the best cuts in many directions are tried, and of those the one is taken after which

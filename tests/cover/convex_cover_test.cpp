@@ -187,6 +187,14 @@ TEST(ConvexCover, HasAsFewPiecesAsKeepTheBounds) {
   EXPECT_GT(too_few.verdict.distance().upper, 0.01);
 }
 
+TEST(ConvexCover, ThatMayHaveMorePiecesHasNoMoreForABound) {
+  const TriangleMesh mesh = make_sample("knot", 1000);
+  const auto pieces = [&](std::size_t most) {
+    return convex_cover(mesh, {.max_pieces = most, .bounds = {.max_void_ratio = 0.5}}).pieces.size();
+  };
+  EXPECT_LE(pieces(64), pieces(24));
+}
+
 TEST(ConvexCover, TakesAnyTriangles) {
   TriangleMesh open = small_torus();
   open.triangles.resize(open.face_count() - 9);
@@ -356,6 +364,12 @@ TEST(ConvexCover, RefusesWhatItCannotDo) {
   EXPECT_THROW(convex_cover(box, {.max_vertices = 3}), InputError);
   EXPECT_THROW(convex_cover(box, {.bounds = {.max_distance = -1}}), InputError);
   EXPECT_THROW(convex_cover(TriangleMesh{}), InputError);
+  try {
+    convex_cover(meshes::tetrahedron({0, 0, 0}, {1e-90, 0, 0}, {0, 1e-90, 0}, {0, 0, 1e-90}));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string_view(error.what()).find("across"), std::string_view::npos) << error.what();
+  }
 }
 
 }  // namespace
