@@ -155,6 +155,11 @@ class PieceFiles {
     return found;
   }
 
+  /// Of these no more is decided than that polytopes inside of them cover the mesh: robot files are not read again.
+  bool has_shapes(const std::vector<ConvexPiece>& pieces) const {
+    return is_robot() && !std::ranges::all_of(pieces, is_mesh);
+  }
+
   static bool is_mesh(const ConvexPiece& piece) { return std::holds_alternative<std::monostate>(piece.primitive); }
 
  private:
@@ -272,7 +277,9 @@ void print_summary(const ConvexOptions& options, const PieceFiles& files, const 
       counted(outcome.input.components, "component"));
   for (const std::string& note : cover.notes) say("  {}\n", note);
   say("{}\n", line_of_cover(output_name(options.out), cover, outcome.diagonal));
-  say("  {}\n", line_of_proof(cover));
+  say("  {}\n", files.has_shapes(cover.pieces)
+                   ? line_of_proof(cover, "the union of polytopes, which lie in the shapes as written by construction,")
+                   : line_of_proof(cover));
   if (options.engine && outcome.largest.vertices > 0) print_limits(options, outcome);
   const auto in_shape = static_cast<std::size_t>(std::ranges::count(cover.pieces, options.cover.shape, shape_of));
   if (in_shape < cover.pieces.size())
@@ -327,6 +334,7 @@ nlohmann::json report_of(const ConvexOptions& options, const PieceFiles& files, 
           {"paths", paths},
           {"pieces", pieces},
           {"verdict", facts(cover.verdict)},
+          {"shapes_by_construction", files.has_shapes(cover.pieces)},
           {"volume", finite_or_null(cover.volume)},
           {"volume_is_bound", cover.volume_is_bound},
           {"original_volume", finite_or_null(cover.original_volume)},
@@ -346,7 +354,6 @@ nlohmann::json report_of(const ConvexOptions& options, const PieceFiles& files, 
 }
 
 Outcome cover_and_write(ConvexOptions options, const PieceFiles& files) {
-  options.cover.float32_coordinates = files.has_float32() || options.engine;  // engines read OBJ as float32, too
   options.cover.boxes_as_meshes = !files.is_robot();
   if (options.engine)
     options.cover.max_vertices = std::min(options.cover.max_vertices, most_vertices(*options.engine.value()));
@@ -357,6 +364,10 @@ Outcome cover_and_write(ConvexOptions options, const PieceFiles& files) {
   outcome.input = inspect(in.mesh);
   outcome.diagonal = finite_bounding_box(in.mesh).diagonal();
   in.unit.set(options.cover.bounds.max_distance, options.max_distance, "--max-distance");
+  const bool may_write_meshes =
+      !files.is_robot() || options.cover.shape == PieceShape::Polytope || options.cover.bounds.any();
+  options.cover.float32_coordinates =  // engines read OBJ as float32, too
+      may_write_meshes && (files.has_float32() || options.engine);
   const CertifiedOriginal original = certified_original(options.certificate, in.mesh, options.in, options.input);
   outcome.cover = naming(options.in, options.cover,
                          [&](const ConvexCoverOptions& how) { return convex_cover(std::move(in.mesh), how); });
@@ -433,7 +444,8 @@ void add_convex(CLI::App& app, Run& run) {
       "convex",
       "Covers a mesh by a few convex pieces, as physics engines take them. Together the pieces provably cover every "
       "triangle, and the inside too where the mesh is a solid. Any triangles will do. The files that were written are "
-      "read again, and what they hold is certified by exact arithmetic.");
+      "read again, and what they hold is certified by exact arithmetic. Of boxes, capsules and spheres in robot files, "
+      "polytopes are certified that lie in them by construction.");
   add_mesh_inputs(command, options->meshes, options->input, "Mesh to cover.");
   add_value(command, "-o,--out", options->out, "PIECES",
             "File for the pieces. .obj and .glb hold all of them, each with a name. For .stl, .ply and .off each piece "

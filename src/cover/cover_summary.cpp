@@ -81,8 +81,8 @@ std::string line_of_volume(const SphereCover& cover) {
                      cover.is_estimated ? " (estimated)" : "");
 }
 
-std::string line_of_proof(const ConvexCover& cover) {
-  return "certified: " + certificate_of(cover.verdict, "the union of the pieces as written");
+std::string line_of_proof(const ConvexCover& cover, std::string_view what) {
+  return "certified: " + certificate_of(cover.verdict, std::string(what));
 }
 
 std::string line_of_proof(const SphereCover& cover) {

@@ -71,6 +71,9 @@ for suffix in urdf xml; do
   for shape in box capsule sphere; do
     expect 0 "$suffix of shape $shape" $convex --shape $shape -o s.$suffix --report s.json
     says s.json "$suffix of shape $shape" "\"shape\": \"$shape\""
+    says s.json "$suffix of shape $shape has no float32 to pay for" '"float32_coordinates": false'
+    says s.json "$suffix of shape $shape is not read again" '"shapes_by_construction": true'
+    says out "$suffix of shape $shape is not read again" "which lie in the shapes as written by construction, encloses"
     absent "s_*.stl" "$suffix of shape $shape needs no meshes"
     expect 0 "$suffix of shape $shape can be drawn" $prohull render s.$suffix --size 40x30 -o s.png
   done

@@ -20,7 +20,7 @@ std::string line_of_cover(const std::string& name, const SphereCover& cover, std
 /// "volume: 10.55 with overlaps counted once, 31.9 % more than the solid's"; empty if that is not known
 std::string line_of_volume(const SphereCover& cover);
 
-std::string line_of_proof(const ConvexCover& cover);
+std::string line_of_proof(const ConvexCover& cover, std::string_view what = "the union of the pieces as written");
 std::string line_of_proof(const SphereCover& cover);
 
 }  // namespace prohull
