@@ -277,9 +277,10 @@ void print_summary(const ConvexOptions& options, const PieceFiles& files, const 
       counted(outcome.input.components, "component"));
   for (const std::string& note : cover.notes) say("  {}\n", note);
   say("{}\n", line_of_cover(output_name(options.out), cover, outcome.diagonal));
-  say("  {}\n", files.has_shapes(cover.pieces)
-                   ? line_of_proof(cover, "the union of polytopes, which lie in the shapes as written by construction,")
-                   : line_of_proof(cover));
+  say("  {}\n",
+      files.has_shapes(cover.pieces)
+          ? line_of_proof(cover, "the union of polytopes, which lie in the shapes as written by construction,")
+          : line_of_proof(cover));
   if (options.engine && outcome.largest.vertices > 0) print_limits(options, outcome);
   const auto in_shape = static_cast<std::size_t>(std::ranges::count(cover.pieces, options.cover.shape, shape_of));
   if (in_shape < cover.pieces.size())

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "prohull/convex_cover.h"
 #include "prohull/sphere_cover.h"
