@@ -166,17 +166,6 @@ class Reduction {
   double least_volume_ = std::numeric_limits<double>::infinity();
 };
 
-/// The polytope, its vertices moved out one by one to float32 coordinates: where it is thinner than these are apart in
-/// space, but not along an axis, that is far less than growing moves them.
-std::optional<TriangleMesh> moved_outwards(const TriangleMesh& polytope, const TriangleMesh& enclosed) {
-  try {
-    TriangleMesh hull = convex_hull(with_float32_coordinates(polytope, HullSide::Outer, NoRoom::Round).mesh);
-    if (hull.face_count() > 0 && encloses(hull, enclosed)) return hull;
-  } catch (const InputError&) {  // too far from the origin
-  }
-  return std::nullopt;
-}
-
 /// The polytope, grown about its middle until it encloses the other one with float32 coordinates.
 std::optional<TriangleMesh> rounded_outwards(const TriangleMesh& polytope, const TriangleMesh& enclosed) {
   const Vec3 center = middle(polytope);
@@ -190,6 +179,23 @@ std::optional<TriangleMesh> rounded_outwards(const TriangleMesh& polytope, const
   return std::nullopt;
 }
 
+/// The polytope, each vertex moved outwards to float32 coordinates; nothing if that leaves out some of the enclosed
+/// one.
+std::optional<TriangleMesh> moved_to_float32(const TriangleMesh& polytope, const TriangleMesh& enclosed) try {
+  TriangleMesh hull = convex_hull(with_float32_coordinates(polytope, HullSide::Outer, NoRoom::Round).mesh);
+  return hull.face_count() > 0 && encloses(hull, enclosed) ? std::optional(std::move(hull)) : std::nullopt;
+} catch (const InputError&) {  // such numbers are too far apart for its size
+  return std::nullopt;
+}
+
+/// The box around the polytope; nothing if it has too many vertices.
+std::optional<TriangleMesh> float32_box(const TriangleMesh& polytope, std::size_t max_vertices) {
+  TriangleMesh box = mesh_of(box_around(polytope), true);
+  const bool fits = box.vertex_count() <= max_vertices && box.face_count() > 0 &&
+                    std::ranges::all_of(box.positions, is_finite) && encloses(box, polytope);
+  return fits ? std::optional(std::move(box)) : std::nullopt;
+}
+
 }  // namespace
 
 TriangleMesh with_few_vertices(const TriangleMesh& polytope, std::size_t max_vertices, bool float32_coordinates) {
@@ -201,7 +207,8 @@ TriangleMesh with_few_vertices(const TriangleMesh& polytope, std::size_t max_ver
   if (!float32_coordinates) return result;
   // The search may end far outside where the rounding is large against the thickness in some direction.
   const TriangleMesh few = with_few_vertices(polytope, max_vertices, false);
-  for (auto& other : {rounded_outwards(few, polytope), moved_outwards(few, polytope)})
+  for (const auto& other :
+       {rounded_outwards(few, polytope), moved_to_float32(few, polytope), float32_box(polytope, max_vertices)})
     if (other && signed_volume(*other) < signed_volume(result)) result = *other;
   return result;
 }

@@ -127,6 +127,10 @@ expect 0 "for mujoco" $convex --for mujoco -o e.xml
 expect 0 "for mujoco: boxes have no vertices to count" $convex --for mujoco --shape box -o e.xml
 is "for mujoco: boxes have no vertices to count, said" test "$(grep -c "as written have" out)" = 0
 
+printf 'OFF\n4 4 0\n9999 0 0\n9999.2 0 0\n9999 0.1 0\n9999 0 0.1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >off.off
+expect 0 "boxes need no float32" $prohull convex off.off --pieces 1 --shape box -o off.urdf
+expect 3 "polytopes beside boxes do" $prohull convex off.off --pieces 1 --shape box --max-void 900 -o off.urdf
+
 # --- pictures ---
 expect 0 "exploded" $prohull render part.stl a.obj --explode none --explode 0.3 --size 80x30 -o exploded.png
 expect 0 "not exploded" $prohull render part.stl a.obj --size 80x30 -o together.png
