@@ -70,20 +70,32 @@ std::string shortest(double magnitude) {
   return one.size() <= other.size() ? one : other;
 }
 
-}  // namespace
-
-std::from_chars_result std::from_chars(const char* first, const char* last, double& value) {
+/// musl's `read`, which is strtod or strtof, rounds correctly.
+template <class Number>
+std::from_chars_result number_of(const char* first, const char* last, Number& value,
+                                 Number (*read)(const char*, char**)) {
   const bool is_negative = first != last && *first == '-';
   const char* const begin = first + is_negative;
   const char* const end = end_of_number(begin, last);
-  if (end == begin) return {first, errc::invalid_argument};
-  const double magnitude = strtod(string(begin, end).c_str(), nullptr);  // musl's rounds correctly
+  if (end == begin) return {first, std::errc::invalid_argument};
+  const Number magnitude = read(std::string(begin, end).c_str(), nullptr);
   const bool has_digit = is_digit(*begin) || *begin == '.';
   const bool is_zero = std::all_of(begin, std::find_if(begin, end, [](char c) { return (c | 0x20) == 'e'; }),
                                    [](char c) { return c == '0' || c == '.'; });
-  if (has_digit && (std::isinf(magnitude) || (magnitude == 0 && !is_zero))) return {end, errc::result_out_of_range};
+  if (has_digit && (std::isinf(magnitude) || (magnitude == 0 && !is_zero)))
+    return {end, std::errc::result_out_of_range};
   value = is_negative ? -magnitude : magnitude;
-  return {end, errc()};
+  return {end, std::errc()};
+}
+
+}  // namespace
+
+std::from_chars_result std::from_chars(const char* first, const char* last, double& value) {
+  return number_of(first, last, value, strtod);
+}
+
+std::from_chars_result std::from_chars(const char* first, const char* last, float& value) {
+  return number_of(first, last, value, strtof);
 }
 
 std::to_chars_result std::to_chars(char* first, char* last, double value) {
