@@ -29,13 +29,12 @@ double length_of_unit(std::string_view name) {
   return known == kUnits.end() ? 0 : known->second;
 }
 
-/// The first tag of an element, from its name on: that of the root.
+/// The first tag of an element, from its name on: that of the root. Empty if there is none.
 std::string_view root_tag(std::string_view xml) {
-  for (std::size_t at = xml.find('<'); at != xml.npos; at = xml.find('<', at + 1)) {
+  for (std::size_t at = xml.find('<'); at != xml.npos; at = xml.find('<')) {
     xml.remove_prefix(at);
-    const bool is_comment = xml.starts_with("<!--");
-    if (!is_comment && !xml.starts_with("<?") && !xml.starts_with("<!")) return xml.substr(1, xml.find('>') - 1);
-    at = xml.find(is_comment ? "-->" : ">");
+    if (!xml.starts_with("<?") && !xml.starts_with("<!")) return xml.substr(1, xml.find('>') - 1);
+    xml.remove_prefix(std::min(xml.size(), xml.find(xml.starts_with("<!--") ? "-->" : ">")));
   }
   return {};
 }

@@ -27,6 +27,7 @@ TEST(FileUnit, IsToldByTheContent) {
   EXPECT_EQ(unit_in(model("<model xmlns='x' unit='foot'><resources/>"), "a.3mf"), 0.3048);
   EXPECT_EQ(unit_in(model("<model xmlns='x'>"), "a.3MF"), 0.001);
   EXPECT_EQ(unit_in(model("<?xml?><!-- <model unit='foot'> --><m:model xmlns:m='x' unit = 'inch'>"), "a.3mf"), 0.0254);
+  EXPECT_EQ(unit_in(model("<!-- <model unit='foot'>"), "a.3mf"), 0.001);  // a comment without an end
 }
 
 TEST(FileUnit, IsThatOfWhatAnArchiveHolds) {
