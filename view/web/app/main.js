@@ -323,7 +323,8 @@ function listen() {
     };
   }
   byId('sample').onchange = (event) => {
-    if (event.target.value) take(() => sampleOf(event.target.value));
+    const name = event.target.value;  // the box is emptied before the sample is made
+    if (name) take(() => sampleOf(name));
   };
   byId('part').onsubmit = (event) => event.preventDefault();
   byId('options').addEventListener('change', () => {

@@ -184,19 +184,21 @@ async function drawRefinement(own) {
 // Passes below the hull of a gyroid, in a plane that lies across the fold.
 const FOLDED = [1.8302, 0.4348, 0.7301, -2.5137, -0.8071, -0.9969];
 
+const coarsest = (levels) => level(levels, facesAfter(levels, collapsesOf(levels)));
+
 async function drawMissed(own) {
   const {picture} = own, walks = own.find('engine').value === 'walk', sample = ['gyroid', 6000];
   const {mesh, levels: outer} = await recordOf(...sample, {targetFaces: 500, strategy: 'paper1'});
   const {levels: inner} = await recordOf(...sample, {targetFaces: 500, side: 'inner', strategy: 'paper1'});
   const way = minus(FOLDED.slice(3), FOLDED.slice(0, 3)), flat = Math.hypot(way[0], way[1]), across = [-way[1] / flat, way[0] / flat, 0];
   const segment = [0, 3].flatMap((k) => plus(FOLDED.slice(k, k + 3), across, own.value('shift')));
-  const numbers = Float64Array.from(segment), refined = walks ? await level(outer, 0) : await figure('refinedAlong', outer, numbers);
+  const numbers = Float64Array.from(segment), refined = walks ? await coarsest(outer) : await figure('refinedAlong', outer, numbers);
   const found = walks ? (await figure('walkHits', outer, inner, numbers)).t : refined.found, missed = refined.missed ?? [];
   own.segment = segment;
   picture.frame = frameOf(mesh.vertices);
   picture.clear();
   const bodies = [picture.mesh(mesh, {closed: true, edges: false}), picture.mesh(refined, {color: BLUE, opacity: 0.3, order: 1, depth: 1, closed: true, edges: false})];
-  if (walks) bodies.push(picture.mesh(await level(inner, 0), {color: GREEN, order: 30, depth: 4, closed: true, edges: false}));
+  if (walks) bodies.push(picture.mesh(await coarsest(inner), {color: GREEN, order: 30, depth: 4, closed: true, edges: false}));
   showSection(picture, segment, bodies);
   markCrossings(picture, segment, {found, missed});
   own.tell(`Found: ${tellCrossings(found)}. ${missed.length ? `Missed: ${tellCrossings(missed)}.` : 'None is missed.'}`);
