@@ -188,9 +188,10 @@ TEST(ConvexCover, HasAsFewPiecesAsKeepTheBounds) {
 }
 
 TEST(ConvexCover, ThatMayHaveMorePiecesHasNoMoreForABound) {
-  const TriangleMesh mesh = make_sample("knot", 1000);
+  const TriangleMesh mesh = make_sample("asteroid", 1000);
+  const double max_distance = 0.03 * bounding_box(mesh).diagonal();
   const auto pieces = [&](std::size_t most) {
-    return convex_cover(mesh, {.max_pieces = most, .bounds = {.max_void_ratio = 0.5}}).pieces.size();
+    return convex_cover(mesh, {.max_pieces = most, .bounds = {.max_distance = max_distance}}).pieces.size();
   };
   EXPECT_LE(pieces(64), pieces(24));
 }
