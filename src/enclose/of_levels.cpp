@@ -82,7 +82,7 @@ EnclosingHull built_of_levels(const Making& making) {
 }
 
 // Moved before it has come down to its faces, too, a hull is up to 1 % smaller. One that is stuck with too many faces
-// to be better than another hull does not move any more.
+// to be better than another hull does not move any more. The mesh has its levels already: one of them comes first.
 EnclosingHull built_in_steps(const Making& making) {
   struct Step {
     double faces;  ///< of those asked for

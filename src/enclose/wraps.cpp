@@ -20,6 +20,7 @@ constexpr WrapKind kWrapsOfSheets[]{{3.5, 0.3, 1.5}, {7, 0.9, 4}, {9, 0.5, 4}};
 constexpr WrapKind kWrapInside{3.5, 0.3, 0};
 
 constexpr std::size_t kMostWraps = 3;
+constexpr double kVeryMuchVoid = 0.3;
 
 // The first ones are the same: they tell whether the triangles enclose anything.
 std::span<const WrapKind> wraps(const Request& request, double volume) {
@@ -75,7 +76,7 @@ bool Candidates::is_worth_a_wrap(const Ranking& ranking, const Solids& solids, b
   if (ranking.is_of_flat() || ranking.is_on_triangles()) return false;  // and convex: no wrap comes nearer
   if ((request_.options.levels || request_.options.keep_cavities) && best.source == Source::Mesh) return false;
   if (solids.volume(target_faces_) == 0) return true;
-  constexpr double kLittleVoid = 0.03, kMuchVoid = 0.12, kMoreVoid = 0.15, kVeryMuchVoid = 0.3;
+  constexpr double kLittleVoid = 0.03, kMuchVoid = 0.12, kMoreVoid = 0.15;
   if (best.source == Source::Mesh && ranking.is_clean())
     return ranking.slack() > (request_.is_padded() || !is_first ? kVeryMuchVoid : kMoreVoid);
   return ranking.slack() > (is_first ? kLittleVoid : kMuchVoid);
@@ -84,7 +85,7 @@ bool Candidates::is_worth_a_wrap(const Ranking& ranking, const Solids& solids, b
 /// Wraps were tried, but all of their hulls have a few faces more than were asked for, or guards were relaxed to get
 /// there, and what has fewer swells.
 bool Candidates::are_wraps_stuck(const Ranking& ranking) const {
-  constexpr double kAFew = 2, kVeryMuchVoid = 0.3;
+  constexpr double kAFew = 2;
   if (!has_few_faces(ranking)) return false;
   const EnclosingHull& best = ranking.best().hull;
   return (best.source == Source::ConvexHull || best.relaxed_guards > 0) && ranking.slack() > kVeryMuchVoid &&
