@@ -154,33 +154,42 @@ class SphereCoverer {
   BallCover keep_distance(double reach) {
     constexpr double kCoarsest = 8;
     ProgressMeter meter(options_.progress, "spheres");
-    const Cut cut = cut_up(std::min(reach / kCubesPerReach, diagonal_ / kCoarsest), meter);
+    const Cut cut = cut_up(size_of_cubes(std::min(reach / kCubesPerReach, diagonal_ / kCoarsest)), meter);
     const BallTask task{cut.patches, *depth_, cut.size, meter};
     return cover::fewest_balls(task, cut.places, options_.max_balls, reach);
   }
 
-  /// Searches with coarser or finer patches, until they are small beside the reach.
+  /// Searches with coarser or finer patches, until they are small beside the reach, or as many as there may be.
   BallCover reach_least() {
     ProgressMeter meter(options_.progress, "spheres");
     const double first = diagonal_ * 0.25 / std::sqrt(static_cast<double>(options_.max_balls));
     constexpr int kMostRounds = 12;  // where a finer guess finds nothing and a coarser one too much, they would go on
-    double guess = first;
+    double guess = first, finest = std::numeric_limits<double>::infinity();
+    BallCover best;
     for (int round = 1;; ++round) {
-      const Cut cut = cut_up(guess / kCubesPerReach, meter);
+      const double size = size_of_cubes(guess / kCubesPerReach);
+      if (!best.balls.empty() && size >= finest) return best;
+      const Cut cut = cut_up(size, meter);
       const BallTask task{cut.patches, *depth_, cut.size, meter};
       BallCover found = cover::least_reach(task, cut.places, options_.max_balls, std::max(guess, 2 * cut.size));
+      const bool is_any = !found.balls.empty();
+      const double reach = found.reach;
+      if (is_any) finest = std::min(finest, size);
+      if (is_any && (best.balls.empty() || reach < best.reach)) best = std::move(found);
       constexpr double kFinest = 0.5;  // a ball is covered by one that reaches out by nothing
-      if (!found.balls.empty() && (found.reach > guess / 2 || guess < kFinest * first || round >= kMostRounds))
-        return found;
-      guess = found.balls.empty() ? guess * 1.5 : std::max(found.reach * 1.1, guess / 3);
+      if (is_any && (reach > guess / 2 || guess < kFinest * first || round >= kMostRounds)) return best;
+      guess = is_any ? std::max(reach * 1.1, guess / 3) : guess * 1.5;
     }
   }
 
-  Cut cut_up(double size, ProgressMeter& meter) {
+  /// As small as asked for, but for how many there may be, and for rounding.
+  double size_of_cubes(double size) const {
     constexpr double kMostPatches = 100'000, kPatchesPerBall = 10;
     const double most = std::max(kMostPatches, kPatchesPerBall * static_cast<double>(options_.max_balls));
-    size = std::max(size, std::sqrt(area_of(to_cover_) / most));
-    size = std::max(size, least_margin_);
+    return std::max({size, std::sqrt(area_of(to_cover_) / most), least_margin_});
+  }
+
+  Cut cut_up(double size, ProgressMeter& meter) {
     const CubeGrid grid(box_, size);
     std::vector<cover::PointInCube> points = cover::points_in_cubes(to_cover_, grid);
     meter.at(0.1);
@@ -215,7 +224,9 @@ class SphereCoverer {
     for (int trial = 0; trial < kTrials; ++trial, margin *= kGrowth) {
       cover.balls.clear();
       for (const auto& [center, radius] : found.balls) cover.balls.push_back(stored({center, radius + margin}));
-      cover.verdict = decided(cover.balls);
+      UnionVerification verification = decided(cover.balls);
+      cover.volume = verification.union_volume;
+      cover.verdict = std::move(verification);
       if (cover.verdict.certified) break;
     }
     cover.is_of_wrap = !input_.closed, cover.fills_wrap = cover.is_of_wrap && options_.fill && cover.verdict.certified;
@@ -232,10 +243,10 @@ class SphereCoverer {
     return radius - ball.radius < kMostRounding * diagonal_ ? Ball{center, radius} : ball;
   }
 
-  Verdict decided(const std::vector<Ball>& balls) const {
+  UnionVerification decided(const std::vector<Ball>& balls) const {
     const VerificationOptions options{.progress = options_.progress};
     const bool asks_inside = options_.fill && is_closed(input_.original);
-    Verdict found = verify_union(balls, input_.original, asks_inside, options);
+    UnionVerification found = verify_union(balls, input_.original, asks_inside, options);
     if (!found.certified || !options_.fill || asks_inside) return found;
     UnionVerification of_solid = verify_union(balls, solid_, true, options);
     found.certified = of_solid.certified, found.why_not = std::move(of_solid.why_not);
@@ -259,7 +270,6 @@ class SphereCoverer {
       from_triangles = union_reach(cover.balls, input_.original, {.progress = options_.progress});
     reach.upper = std::min(reach.upper, from_triangles.upper);  // the solid has the triangles
     cover.verdict.distance_to_triangles = from_triangles, cover.verdict.distance_to_solid = reach;
-    cover.volume = union_volume(cover.balls);
     const bool fills = cover.fills_wrap || cover.verdict.encloses_solid == Answer::Yes;
     // No estimate may say that the mesh is larger than what covers it.
     if (cover.is_estimated && fills && cover.original_volume > cover.volume) cover.original_volume = 0;

@@ -132,38 +132,35 @@ class TriangleCutter {
   };
 
   TriangleCutter(const Triangle& t, const Balls& balls, double smallest, Steps& steps)
-      : triangle_(t),
-        balls_(balls),
-        near_(balls.near(box_of(t))),
-        largest_(largest_coordinate(box_of(t))),
-        smallest_(smallest),
-        steps_(steps) {}
+      : triangle_(t), balls_(balls), largest_(largest_coordinate(box_of(t))), smallest_(smallest), steps_(steps) {}
 
   Decision decide() {
-    std::vector<std::array<Corner, 3>> parts{{corner({1, 0, 0}), corner({0, 1, 0}), corner({0, 0, 1})}};
-    for (const Corner& c : parts[0])
+    const BallSet all = balls_.near(box_of(triangle_));
+    std::vector<Part> parts{{{corner({1, 0, 0}, all), corner({0, 1, 0}, all), corner({0, 0, 1}, all)}, all}};
+    for (const Corner& c : parts[0].corners)
       if (c.holders.empty()) return found(c, Decision::Outside);
-    if (!projection_axis(triangle_)) parts[0] = ends_of(segment_of(triangle_), parts[0]);
-    const double coarse = kCoarse * longest_side(parts[0]).second;
+    if (!projection_axis(triangle_)) parts[0].corners = ends_of(segment_of(triangle_), parts[0].corners);
+    const double coarse = kCoarse * longest_side(parts[0].corners).second;
     Decision decision = Decision::Covered;
     for (std::size_t count = 1; !parts.empty(); count += 2) {
-      const auto part = std::move(parts.back());
+      const auto [part, around] = std::move(parts.back());
       parts.pop_back();
       if (have_common(part[0].holders, part[1].holders, part[2].holders)) continue;
+      const BallSet near = balls_.near(box_around(part), around);
       const auto [i, length] = longest_side(part);
       const int j = (i + 1) % 3, k = (i + 2) % 3;
-      Corner middle = corner(part[i].weights * 0.5 + part[j].weights * 0.5);
+      Corner middle = corner(part[i].weights * 0.5 + part[j].weights * 0.5, near);
       if (middle.holders.empty()) return found(middle, Decision::Outside);
       const bool is_small = length < (decision == Decision::Covered ? smallest_ : std::max(smallest_, coarse));
-      const bool is_over = !steps_.may_take(1 + near_.size()) || count > kMostParts;
+      const bool is_over = !steps_.may_take(1 + around.size()) || count > kMostParts;
       if (is_small || is_fine(middle.weights) || is_over) {
         if (decision == Decision::Covered) decision = found(middle, Decision::Undecided);
         if (is_over) break;
         continue;
       }
       const bool is_segment = part[j].weights == part[k].weights;
-      parts.push_back({part[i], middle, is_segment ? middle : part[k]});
-      parts.push_back({std::move(middle), part[j], part[k]});
+      parts.push_back({{part[i], middle, is_segment ? middle : part[k]}, near});
+      parts.push_back({{std::move(middle), part[j], part[k]}, near});
     }
     return decision;
   }
@@ -172,6 +169,11 @@ class TriangleCutter {
   const Corner& point() const { return point_; }
 
  private:
+  struct Part {
+    std::array<Corner, 3> corners;
+    BallSet around;  ///< with all balls that may hold a point of it
+  };
+
   Decision found(const Corner& point, Decision decision) {
     point_ = point;
     return decision;
@@ -184,10 +186,20 @@ class TriangleCutter {
     return {at(segment.a), at(segment.b), at(segment.b)};
   }
 
-  Corner corner(const Vec3& weights) const {
+  /// With all of their points, whose positions are rounded by at most 3 units in the last place of the largest number.
+  Box box_around(const std::array<Corner, 3>& corners) const {
+    const double rounding = 0x1p-49 * largest_ + std::numeric_limits<double>::min();
+    const Vec3 all{rounding, rounding, rounding};
+    Box box;
+    for (const Corner& c : corners) box.extend(c.position - all), box.extend(c.position + all);
+    return box;
+  }
+
+  /// `near` has all balls that may hold it.
+  Corner corner(const Vec3& weights, const BallSet& near) const {
     const Triangle& t = triangle_;
     Corner result{weights, t.a * weights.x + t.b * weights.y + t.c * weights.z, {}};
-    for (const BallIndex i : near_)
+    for (const BallIndex i : near)
       if (ball_holds(balls_[i], result)) result.holders.push_back(i);
     return result;
   }
@@ -222,7 +234,6 @@ class TriangleCutter {
 
   const Triangle triangle_;
   const Balls& balls_;
-  const BallSet near_;
   const double largest_;  // coordinate of the triangle
   const double smallest_;
   Steps& steps_;

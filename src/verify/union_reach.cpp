@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -22,6 +23,8 @@
 //   (1) The distance to a triangle is a convex function: within the convex hull of some corners, a corner is farthest.
 //   (2) Let the part lie in the ball (m, r), and m inside of the solid, at the depth s. On the way from m to a point
 //       outside, the surface of the solid is not met before s: the rest of the way is at most r - s.
+//
+// What holds for a part holds for what it is cut into.
 
 namespace prohull {
 namespace {
@@ -32,8 +35,11 @@ class Target {
  public:
   explicit Target(TriangleMesh original) : is_closed_(is_closed(original)), mesh_(std::move(original)) {
     if (is_closed_) {
+      decltype(mesh_.triangles) outer;
       std::vector<Triangle> triangles;
-      for (const FaceId f : verify::turn_outwards_and_fill(mesh_, "original")) triangles.push_back(mesh_.triangle(f));
+      for (const FaceId f : verify::turn_outwards_and_fill(mesh_, "original"))
+        outer.push_back(mesh_.triangles[f]), triangles.push_back(mesh_.triangle(f));
+      mesh_.triangles = std::move(outer);
       winding_.emplace(std::move(triangles));
     }
     faces_.emplace(mesh_);
@@ -110,6 +116,7 @@ template <class Shape>
 struct PartOfUnion {
   Shape shape;
   std::uint32_t nearest = 0;
+  double most = std::numeric_limits<double>::infinity();  ///< none of its points that count is farther away
 };
 
 /// How far points of the surfaces are that lie outside of the solid.
@@ -124,12 +131,12 @@ class FarFromSolid {
   FarFromSolid(const Target& target, IsHidden is_hidden) : target_(target), is_hidden_(std::move(is_hidden)) {}
 
   void add(Part part, Search& search) const {
-    const double bound = upper(part, search);
-    search.add(part, bound);
+    if (!search.is_enough(part.most)) part.most = std::min(part.most, upper(part, search));
+    search.add(part, part.most);
   }
 
   void cut(const Part& part, Search& search) const {
-    for (const Shape& half : part.shape.halves()) add({half, part.nearest}, search);
+    for (const Shape& half : part.shape.halves()) add({half, part.nearest, part.most}, search);
   }
 
   /// A point of the shape that may be far away.
@@ -274,8 +281,13 @@ DistanceBounds union_reach(std::span<const Ball> balls, const TriangleMesh& orig
   });
   Rule::Search search(rule, limits_of(options, target));
   ProgressCounter counter(options.progress, "measure", options.max_cells);
-  for (const Ball& ball : balls)
-    for (const SpherePart& part : parts_of(ball)) counter.next(), rule.add({part}, search);
+  for (const Ball& ball : balls) {
+    const auto [nearest, depth] = target.faces().nearest(ball.center, 0);
+    Rule::Part part;
+    part.nearest = nearest;
+    if (target.is_inside(ball.center)) part.most = std::max(0.0, ball.radius - depth);
+    for (const SpherePart& eighth : parts_of(ball)) counter.next(), part.shape = eighth, rule.add(part, search);
+  }
   return reach_of(search, target, counter, largest);
 }
 

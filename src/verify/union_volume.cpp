@@ -21,8 +21,10 @@ constexpr double kFullTurn = 2 * std::numbers::pi;
 
 /// Adds the part of the circle around `disk` that lies in `other`; false if that is all of it.
 bool add_covered_arc(const Disk& disk, const Disk& other, bool comes_first, std::vector<Arc>& covered) {
-  const double x = other.x - disk.x, y = other.y - disk.y, distance = std::hypot(x, y);
-  if (distance >= disk.radius + other.radius) return true;
+  const double x = other.x - disk.x, y = other.y - disk.y, reach = disk.radius + other.radius;
+  if (std::abs(x) >= reach || std::abs(y) >= reach) return true;  // most pairs
+  const double distance = std::hypot(x, y);
+  if (distance >= reach) return true;
   if (distance <= std::abs(other.radius - disk.radius))  // of equal ones the first has the circle
     return other.radius < disk.radius || (other.radius == disk.radius && distance == 0 && comes_first);
   const double cosine =

@@ -329,6 +329,15 @@ TEST(UnionOfBalls, AreUndecidedAfterAsManyStepsAsAreAllowed) {
   EXPECT_TRUE(verify_union(balls_around_small_cubes(), kCube, true, {.max_steps = 1'000'000}).certified);
 }
 
+TEST(UnionOfBalls, TakeStepsForThoseNearAPartOfALongTriangleOnly) {
+  constexpr int kCount = 100;
+  const TriangleMesh strip = make({{0, 0, 0}, {kCount, 0, 0}, {kCount, 0.1, 0}}, {{0, 1, 2}});
+  std::vector<Ball> balls;
+  for (int i = 0; i < kCount; ++i) balls.push_back({{i + 0.5, 0, 0}, 0.6});
+  const UnionVerification found = verify_union(balls, strip, false, {.max_steps = 2000 * kCount});
+  EXPECT_TRUE(found.certified) << found.why_not;
+}
+
 TEST(UnionOfBalls, LeavesAHoleInside) {
   EXPECT_TRUE(verify_union(balls_around_small_cubes(), kCube, true).certified);
   EXPECT_TRUE(verify_union(balls_around_small_cubes(kMiddle), kCube, false).certified);
@@ -427,6 +436,13 @@ TEST(UnionReach, OfBalls) {
   expect_bounds(union_reach(std::vector<Ball>{{{0.5, 0.5, 0.5}, 1}}, original), 0.5);
   expect_bounds(union_reach(std::vector<Ball>{{{0.5, 0.5, 0.5}, 0.4}, {{0.5, 0.25, 0.75}, 0.5}}, original), 0.25);
   expect_bounds(union_reach(std::vector<Ball>{{{0.5, 0.5, 0.5}, 0.4}}, original), 0);
+}
+
+TEST(UnionReach, OfBallsIsBoundedByHowDeepTheirCentresLieBeforeAnySearch) {
+  const TriangleMesh rod = box({0, 0, 0}, {100, 1, 1});
+  std::vector<Ball> balls;
+  for (int i = 0; i < 100; ++i) balls.push_back({{i + 0.5, 0.5, 0.5}, 0.9});
+  EXPECT_NEAR(union_reach(balls, rod, {.max_cells = 1}).upper, 0.4, 1e-9);
 }
 
 TEST(UnionReach, FromOpenTrianglesIsThatOfTheSurfaceOfTheUnion) {
