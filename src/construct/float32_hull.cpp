@@ -162,7 +162,7 @@ class VertexMover {
   const NoRoom no_room_;
   const double diagonal_;
   HalfEdgeMesh mesh_;
-  std::vector<HalfSpace> constraints_;
+  HalfSpaces constraints_;
   std::vector<VertexId> cramped_;  ///< neighbours that could not be lifted, for want of room: theirs are next
   std::size_t lifted_ = 0;
   Star star_;

@@ -29,7 +29,7 @@ std::optional<Vec3> lifted(const HalfEdgeMesh& mesh, VertexId v, double clearanc
   double size = 0;
   for (const HalfEdgeId h : mesh.around(v)) size = std::max(size, norm(mesh.position(mesh.tip(h)) - origin));
   if (!(size > 0)) return std::nullopt;
-  std::vector<HalfSpace> constraints;
+  HalfSpaces constraints;
   Vec3 objective;
   for (const HalfEdgeId h : mesh.around(v)) {
     const Vec3 a = (mesh.position(mesh.tip(h)) - origin) / size;

@@ -146,7 +146,7 @@ class Padder {
   const double distance_;
   const bool float32_coordinates_;
   const double rounding_;
-  std::vector<HalfSpace> planes_;
+  HalfSpaces planes_;
 };
 
 }  // namespace

@@ -28,12 +28,21 @@ bool all_faces(const HalfEdgeMesh& mesh, const Star& star, Use&& use) {
   return true;
 }
 
+/// Of faces 2k and 2k + 1.
+Double2 double_areas(const Star& star, std::size_t k) {
+  return Double2{star.double_areas[2 * k], star.double_areas[2 * k + 1]};
+}
+
 }  // namespace
 
 double added_volume(const Star& star, const Vec3& p) {
+  const Vec3Pair at = both(p);
   double sixfold = 0;
-  for (std::size_t i = 0; i < star.planes.size(); ++i)
-    sixfold += star.double_areas[i] * (dot(star.planes[i].normal, p) - star.planes[i].offset);
+  for (std::size_t k = 0; const auto& [normal, offset] : star.planes.pairs()) {
+    const Double2 volumes = double_areas(star, k++) * (dot(normal, at) - offset);
+    sixfold += volumes[0];
+    sixfold += volumes[1];
+  }
   return finite(sixfold / 6 * cubed(star.scale));
 }
 
@@ -49,13 +58,14 @@ double added_volume(const Star& star, const Vec3& p, const std::vector<double>& 
 }  // namespace
 
 std::optional<Placement> place_outside(const Star& star, double margin) {
-  static thread_local std::vector<HalfSpace> constraints;
-  constraints.clear();
+  static thread_local HalfSpaces constraints;
+  constraints = star.planes;
   Vec3 objective;
-  for (std::size_t i = 0; i < star.planes.size(); ++i) {
-    if (star.double_areas[i] == 0) continue;
-    constraints.push_back({star.planes[i].normal, star.planes[i].offset + margin});
-    objective += star.planes[i].normal * star.double_areas[i];
+  for (std::size_t k = 0; auto& [normal, offset] : constraints.pairs()) {
+    offset += margin;
+    const Vec3Pair weighted = normal * double_areas(star, k++);
+    objective += weighted[0];
+    objective += weighted[1];
   }
   const auto best = optimum_or_nearest(objective, constraints, kStarReach);
   if (!best) return std::nullopt;
@@ -65,7 +75,7 @@ std::optional<Placement> place_outside(const Star& star, double margin) {
 std::optional<Placement> place_outside(const Star& star, double margin, const StarPlane& plane) {
   // Coordinates along the axis count from the plane, and are held at 0.
   const int axis = plane.axis;
-  static thread_local std::vector<HalfSpace> constraints;
+  static thread_local HalfSpaces constraints;
   constraints.clear();
   Vec3 objective;
   for (std::size_t i = 0; i < star.planes.size(); ++i) {

@@ -22,9 +22,9 @@ struct Star {
   Vec3 local_o, local_d;
 
   /// The supporting planes of the faces, unit normals outwards; those along the link, then (o, d, l) and (d, o, r).
-  /// A face without area has a zero normal and constrains nothing.
-  std::vector<HalfSpace> planes;
-  std::vector<double> double_areas;
+  /// A face without area has a zero normal, and an offset with which it constrains nothing.
+  HalfSpaces planes;
+  std::vector<double> double_areas;  ///< of an even number: where the faces are odd, a last one is 0
 
   std::size_t valence() const { return link.size(); }
   VertexId apex(std::size_t i) const { return i < o_faces ? o : d; }

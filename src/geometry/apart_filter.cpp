@@ -14,8 +14,6 @@ constexpr double kUnderflow = 0x1p-1000, kLargest = 0x1p900;
 
 double largest_of(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-Double2 max(Double2 a, Double2 b) { return a > b ? a : b; }
-Double2 min(Double2 a, Double2 b) { return a < b ? a : b; }
 Double2 largest_of(const Vec3Pair& v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
 /// Two triangles, one in each lane.

@@ -52,31 +52,16 @@ Basis box_corner(const Vec3& objective) {
   return basis;
 }
 
-// Constraints two by two; the last comes twice if they are odd.
-struct TwoConstraints {
-  Vec3Pair normal;
-  Double2 offset;
-};
-
-void pair_up(const std::vector<HalfSpace>& constraints, std::vector<TwoConstraints>& pairs) {
-  pairs.clear();
-  for (std::size_t i = 0; i < constraints.size(); i += 2) {
-    const HalfSpace &a = constraints[i], &b = constraints[i + 1 < constraints.size() ? i + 1 : i];
-    pairs.push_back({both(a.normal, b.normal), Double2{a.offset, b.offset}});
-  }
-}
-
 // The first of those violated most, or -1. Without branches, which nothing could predict.
-std::ptrdiff_t most_violated(const Vec3& x, const std::vector<TwoConstraints>& constraints) {
-  using Index2 = std::int64_t __attribute__((vector_size(16)));
+std::ptrdiff_t most_violated(const Vec3& x, const HalfSpaces& constraints) {
   const Vec3Pair at = both(x);
   Double2 least = both(-kFeasible);
-  Index2 worst = {-1, -1}, i = {0, 1};
-  for (const auto& [normal, offset] : constraints) {
+  Truth2 worst = {-1, -1}, i = {0, 1};
+  for (const auto& [normal, offset] : constraints.pairs()) {
     const Double2 slack = dot(normal, at) - offset;
-    const auto is_less = slack < least;
-    least = is_less ? slack : least;
-    worst = is_less ? i : worst;
+    const Truth2 is_less = slack < least;
+    least = min(slack, least);
+    worst = (i & is_less) | (worst & ~is_less);
     i += 2;
   }
   // Of the last, if it came twice, lane 1 only ties with lane 0.
@@ -93,7 +78,7 @@ bool pivot(Basis& basis, std::ptrdiff_t entering, const HalfSpace& constraint) {
   const std::array<Double2, 2> alpha{dot(normal, basis.columns_and_x[0]),
                                      dot(normal, basis.columns_and_x[1]) - Double2{0, constraint.offset}};
   const auto ratios = [&](int k) {
-    return alpha[k] > kPivot ? basis.multipliers[k] / alpha[k] : both(std::numeric_limits<double>::infinity());
+    return select(alpha[k] > kPivot, basis.multipliers[k] / alpha[k], both(std::numeric_limits<double>::infinity()));
   };
   const Double2 first_ratios = ratios(0);
   const double third_ratio = ratios(1)[0];
@@ -108,11 +93,11 @@ bool pivot(Basis& basis, std::ptrdiff_t entering, const HalfSpace& constraint) {
   for (int k = 0; k < 2; ++k) {
     const Truth2 leaves = kLeaving[leaving][k];
     Vec3Pair& to = basis.columns_and_x[k];
-    to.x = leaves ? step.x : to.x + step.x * -alpha[k];
-    to.y = leaves ? step.y : to.y + step.y * -alpha[k];
-    to.z = leaves ? step.z : to.z + step.z * -alpha[k];
+    to.x = select(leaves, step.x, to.x - step.x * alpha[k]);
+    to.y = select(leaves, step.y, to.y - step.y * alpha[k]);
+    to.z = select(leaves, step.z, to.z - step.z * alpha[k]);
     const Double2 multiplier = basis.multipliers[k] - least_ratio * alpha[k];
-    basis.multipliers[k] = leaves ? both(least_ratio) : multiplier > 0 ? multiplier : both(0);
+    basis.multipliers[k] = select(leaves, both(least_ratio), max(multiplier, both(0)));
   }
   basis.constraint[leaving] = entering;
   return true;
@@ -126,16 +111,16 @@ bool is_in_box(const Basis& basis) {
 }
 
 // Whether x, moved from vertex to vertex, still is where the three constraints of the basis are tight.
-bool has_drifted(const Basis& basis, const std::vector<HalfSpace>& constraints) {
+bool has_drifted(const Basis& basis, const HalfSpaces& constraints) {
   return std::ranges::any_of(basis.constraint, [&](std::ptrdiff_t i) {
-    const auto& [normal, offset] = constraints[static_cast<std::size_t>(i)];
+    const auto [normal, offset] = constraints[static_cast<std::size_t>(i)];
     return std::abs(dot(normal, basis.x()) - offset) > kFeasible;
   });
 }
 
 // Computes the basis anew from its constraints, as after a passage through one of nearly dependent normals.
-void refresh(Basis& basis, const Vec3& objective, const std::vector<HalfSpace>& constraints) {
-  const auto at = [&](int i) -> const HalfSpace& {
+void refresh(Basis& basis, const Vec3& objective, const HalfSpaces& constraints) {
+  const auto at = [&](int i) {
     return constraints[static_cast<std::size_t>(basis.constraint[static_cast<std::size_t>(i % 3)])];
   };
   const double determinant = dot(at(0).normal, cross(at(1).normal, at(2).normal));
@@ -151,13 +136,11 @@ void refresh(Basis& basis, const Vec3& objective, const std::vector<HalfSpace>& 
 
 }  // namespace
 
-LinearProgramResult solve_linear_program(const Vec3& objective, const std::vector<HalfSpace>& constraints) {
-  static thread_local std::vector<TwoConstraints> pairs;
-  pair_up(constraints, pairs);
+LinearProgramResult solve_linear_program(const Vec3& objective, const HalfSpaces& constraints) {
   Basis basis = box_corner(objective);
   bool is_fresh = false;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const std::ptrdiff_t entering = most_violated(basis.x(), pairs);
+    const std::ptrdiff_t entering = most_violated(basis.x(), constraints);
     if (entering < 0) {
       if (!is_in_box(basis)) return {LinearProgramStatus::Ambiguous, basis.x()};
       if (is_fresh || !has_drifted(basis, constraints)) return {LinearProgramStatus::Optimal, basis.x()};
@@ -184,11 +167,10 @@ struct ActiveSet {
 
 // Solves sum_j (normal_i . normal_j) r_j = normal_i . n for the active normals: r expresses the part of n in their
 // span.
-bool express(const ActiveSet& active, const std::vector<HalfSpace>& constraints, const Vec3& n,
-             std::array<double, 3>& r) {
+bool express(const ActiveSet& active, const HalfSpaces& constraints, const Vec3& n, std::array<double, 3>& r) {
   double m[3][4];
   for (int i = 0; i < active.size; ++i) {
-    const Vec3& ni = constraints[active.constraint[i]].normal;
+    const Vec3 ni = constraints[active.constraint[i]].normal;
     for (int j = 0; j < active.size; ++j) m[i][j] = dot(ni, constraints[active.constraint[j]].normal);
     m[i][active.size] = dot(ni, n);
   }
@@ -218,16 +200,14 @@ void drop(ActiveSet& active, int i) {
 
 }  // namespace
 
-std::optional<Vec3> nearest_feasible_point(const Vec3& target, const std::vector<HalfSpace>& constraints) {
+std::optional<Vec3> nearest_feasible_point(const Vec3& target, const HalfSpaces& constraints) {
   constexpr double kDependent = 1e-9;  // of the squared length of a normal that leaves the span of the active ones
-  static thread_local std::vector<TwoConstraints> pairs;
-  pair_up(constraints, pairs);
   Vec3 x = target;
   ActiveSet active;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const std::ptrdiff_t entering = most_violated(x, pairs);
+    const std::ptrdiff_t entering = most_violated(x, constraints);
     if (entering < 0) return x;
-    const HalfSpace& constraint = constraints[static_cast<std::size_t>(entering)];
+    const HalfSpace constraint = constraints[static_cast<std::size_t>(entering)];
     double multiplier = 0;
     while (true) {
       std::array<double, 3> r{};
@@ -256,7 +236,7 @@ std::optional<Vec3> nearest_feasible_point(const Vec3& target, const std::vector
   return std::nullopt;
 }
 
-std::optional<Vec3> optimum_or_nearest(const Vec3& objective, const std::vector<HalfSpace>& constraints, double reach) {
+std::optional<Vec3> optimum_or_nearest(const Vec3& objective, const HalfSpaces& constraints, double reach) {
   const auto is_within = [reach](const Vec3& p) {
     return std::abs(p.x) <= reach && std::abs(p.y) <= reach && std::abs(p.z) <= reach;
   };

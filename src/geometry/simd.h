@@ -41,6 +41,27 @@ inline Float4 max(Float4 a, Float4 b) {
 #endif
 }
 
+/// Of a lane in which one is NaN, that of b; likewise of zeros.
+inline Double2 min(Double2 a, Double2 b) {
+#ifdef __SSE2__
+  return _mm_min_pd(a, b);
+#else
+  return a < b ? a : b;
+#endif
+}
+inline Double2 max(Double2 a, Double2 b) {
+#ifdef __SSE2__
+  return _mm_max_pd(a, b);
+#else
+  return a > b ? a : b;
+#endif
+}
+
+/// a in the lanes where that is true, and b in the others.
+inline Double2 select(Truth2 where, Double2 a, Double2 b) {
+  return std::bit_cast<Double2>((std::bit_cast<Truth2>(a) & where) | (std::bit_cast<Truth2>(b) & ~where));
+}
+
 inline Double2 abs(Double2 x) {
   return std::bit_cast<Double2>(std::bit_cast<Truth2>(x) & std::numeric_limits<std::int64_t>::max());
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <numbers>
 
@@ -118,8 +119,8 @@ TEST(Placement, OfAFlatStarIsNearTheEdgesMiddle) {
     Star star;
     gather_star(mesh, EdgeId{e}, star);
     measure_star(mesh, star);
-    const bool is_flat =
-        std::ranges::all_of(star.planes, [&](const HalfSpace& h) { return h.normal == star.planes[0].normal; });
+    bool is_flat = true;
+    for (std::size_t i = 0; i < star.planes.size(); ++i) is_flat &= star.planes[i].normal == star.planes[0].normal;
     if (!is_flat) continue;
     ++flat;
     EXPECT_TRUE(lies_on_all_planes(mesh, star, mesh.position(star.o)) &&
@@ -130,6 +131,21 @@ TEST(Placement, OfAFlatStarIsNearTheEdgesMiddle) {
     EXPECT_EQ(placement->added_volume, 0);
   }
   EXPECT_GT(flat, 50);
+}
+
+TEST(Placement, IsNotBoundByAFaceWithoutArea) {
+  TriangleMesh with_needle = roof();
+  with_needle.positions.push_back({-0.75, 0.5, 0.5});  // between 0 and 3
+  with_needle.triangles[FaceId{2}] = {VertexId{0}, VertexId{3}, VertexId{7}};
+  with_needle.triangles.push_back({VertexId{0}, VertexId{7}, VertexId{4}});
+  with_needle.triangles.push_back({VertexId{7}, VertexId{3}, VertexId{4}});
+  const HalfEdgeMesh mesh(with_needle);
+  const Star star = star_of(mesh, 0, 1);
+  ASSERT_EQ(star.planes.size(), 7u);
+  ASSERT_EQ(std::ranges::count(star.double_areas, 0), 2) << "the needle, and what makes the number even";
+  const auto placement = place_outside(star, 1e-3);
+  ASSERT_TRUE(placement);
+  EXPECT_TRUE(is_outside(mesh, star, star.to_input(placement->local)));
 }
 
 TEST(Placement, KnowsTheEndOfTheEdgeThatLiesOnAllPlanes) {

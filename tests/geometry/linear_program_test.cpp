@@ -24,6 +24,12 @@ using Status = LinearProgramStatus;
 struct Program {
   Vec3 objective;
   std::vector<HalfSpace> constraints;
+
+  HalfSpaces half_spaces() const {
+    HalfSpaces all;
+    for (const HalfSpace& one : constraints) all.push_back(one);
+    return all;
+  }
 };
 
 double value(const Program& program, const Vec3& x) { return dot(program.objective, x); }
@@ -82,7 +88,7 @@ constexpr double kRounding = 1e-9;
 /// The answer must be that of a program whose constraints are moved by no more than the tolerance: the exact values of
 /// the relaxed and of the tightened program bracket it. Returns the status for counting.
 Status check(const Program& program) {
-  const auto [status, x] = solve_linear_program(program.objective, program.constraints);
+  const auto [status, x] = solve_linear_program(program.objective, program.half_spaces());
   const auto tightened = exact_value(program, Within::Box, -kViolation);
   if (status == Status::Infeasible) {
     EXPECT_FALSE(tightened) << "a solution with room to spare was missed";
@@ -245,7 +251,7 @@ TEST(LinearProgram, AgreesOnNearlyParallelNormals) {
 }
 
 TEST(LinearProgram, KnownAnswers) {
-  const std::vector<HalfSpace> octant{{{1, 0, 0}, 1}, {{0, 1, 0}, 2}, {{0, 0, 1}, 3}};
+  const HalfSpaces octant{{{1, 0, 0}, 1}, {{0, 1, 0}, 2}, {{0, 0, 1}, 3}};
   const auto corner = solve_linear_program({1, 1, 1}, octant);
   EXPECT_EQ(corner.status, Status::Optimal);
   EXPECT_EQ(corner.x, (Vec3{1, 2, 3}));
@@ -286,7 +292,7 @@ void check_recorded(std::string_view sample, std::size_t faces) {
     measure_star(mesh, star);
     const Program program = program_of(star);
     counts.count(check(program));
-    const auto best = solve_linear_program(program.objective, program.constraints);
+    const auto best = solve_linear_program(program.objective, program.half_spaces());
     if (best.status == Status::Optimal && !refused_shape(star, best.x, {})) {
       mesh.collapse(star.edge, star.to_input(best.x));
       ++collapses;
@@ -337,7 +343,8 @@ void check_nearest(int count, int least_found, Make&& make) {
   for (int i = 0; i < count; ++i) {
     const Program program = make(random);
     const Vec3 target = random.vector();
-    const auto truth = nearest_by_trying_all(target, program), x = nearest_feasible_point(target, program.constraints);
+    const auto truth = nearest_by_trying_all(target, program),
+               x = nearest_feasible_point(target, program.half_spaces());
     if (!x) {
       ASSERT_FALSE(exact_value(program, Within::Box, -1e-9)) << "program " << i;
       continue;

@@ -277,7 +277,8 @@ TEST(Star, ListsItsLinkCounterClockwiseFromL) {
   EXPECT_EQ(star.link[star.o_faces], mesh.tip(mesh.next(mesh.twin(h))));
   measure_star(mesh, star);
   ASSERT_EQ(star.planes.size(), 6u);
-  for (const HalfSpace& plane : star.planes) {
+  for (std::size_t i = 0; i < star.planes.size(); ++i) {
+    const HalfSpace plane = star.planes[i];
     EXPECT_NEAR(norm(plane.normal), 1, 1e-15);
     EXPECT_LT(dot(plane.normal, (Vec3{} - star.origin) / star.scale), plane.offset) << "the middle is inside";
   }

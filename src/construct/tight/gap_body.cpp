@@ -95,7 +95,7 @@ class PushOut {
   const Original& original_;
   SelfIntersectionGuard guard_;
   std::vector<VertexId> link_;
-  std::vector<HalfSpace> planes_;
+  HalfSpaces planes_;
   double missing_ = 0;
   Vec3 away_;  ///< from the nearest triangle
 };

@@ -106,7 +106,7 @@ class TightPlacement {
   int programs_left_ = 0;
   bool is_begun_ = false;  ///< with the least margin, by a guess
   bool encloses_ = false;
-  std::vector<HalfSpace> constraints_;
+  HalfSpaces constraints_;
 
   // Scratch.
   std::size_t looks_ = 0;
