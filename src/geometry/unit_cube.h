@@ -19,6 +19,10 @@ struct FloatBox {
     return (int(min[0] <= other.max[0]) & int(other.min[0] <= max[0]) & int(min[1] <= other.max[1]) &
             int(other.min[1] <= max[1]) & int(min[2] <= other.max[2]) & int(other.min[2] <= max[2])) != 0;
   }
+  bool holds(const FloatBox& other) const {
+    return (int(min[0] <= other.min[0]) & int(other.max[0] <= max[0]) & int(min[1] <= other.min[1]) &
+            int(other.max[1] <= max[1]) & int(min[2] <= other.min[2]) & int(other.max[2] <= max[2])) != 0;
+  }
   bool has_inside(const std::array<float, 3>& p) const {
     return (int(min[0] < p[0]) & int(p[0] < max[0]) & int(min[1] < p[1]) & int(p[1] < max[1]) & int(min[2] < p[2]) &
             int(p[2] < max[2])) != 0;

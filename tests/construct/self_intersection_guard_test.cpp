@@ -129,9 +129,7 @@ TEST(SelfIntersectionGuard, AgreesWithExactTestsOfAllPairs) {
       const bool adds = count(adds_pairs(mesh, star, apex));
       ASSERT_EQ(guard.would_add_intersections(mesh, star, apex), adds);
       if (satisfies_link_condition(star) && mesh.face_count() > 20 && (!adds || random.below(10) == 0)) {
-        const VertexId s = mesh.positions().next_id();
-        mesh.collapse(star.edge, apex);
-        guard.changed(mesh, s);
+        guard.collapsed(mesh, mesh.collapse(star.edge, apex));
       }
 
       const VertexId v = mesh.corners(FaceId{index(mesh.out(star.link[0])) / 3})[0];

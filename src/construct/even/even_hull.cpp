@@ -139,9 +139,7 @@ class Evener {
     std::optional<Vec3> to = placement_.first(is_accepted);
     if (!to && is_accepted(from) && placement_.keeps_enclosing(from)) to = from;
     if (!to) return false;
-    const VertexId s{static_cast<std::uint32_t>(mesh_.positions().size())};
-    mesh_.collapse(mesh_.half_edge(e), *to);
-    guard_.changed(mesh_, s);
+    guard_.collapsed(mesh_, mesh_.collapse(mesh_.half_edge(e), *to));
     return true;
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 
 namespace prohull {
 namespace {
@@ -24,15 +25,19 @@ void Fan::set(const HalfEdgeMesh& mesh, const std::vector<VertexId>& link, const
   assert(link.size() >= 3 && link.size() <= kMostFaces);
   count_ = link.size();
   ids_.assign((count_ + 3) / 4, {Truth4{-1, -1, -1, -1}});  // kNoVertex
-  for (std::size_t i = 0; i < count_; ++i) ids_[i / 4].four[i % 4] = static_cast<std::int32_t>(index(link[i]));
+  std::memcpy(ids_.data(), link.data(), count_ * sizeof(VertexId));
   apex_ = apex;
   vertices_.clear(), normals_.clear();
-  box_ = {};
-  box_.extend(apex);
   const std::size_t n = link.size();
   const auto vertex = [&](std::size_t i) -> const Vec3& { return i < n ? mesh.position(link[i]) : apex; };
   for (std::size_t i = 0; i <= n; i += 2) vertices_.push_back(both(vertex(i), vertex(i + 1)));
-  for (std::size_t i = 0; i < n; ++i) box_.extend(vertex(i));
+  Vec3Pair low = vertices_.front(), high = low;
+  for (const Vec3Pair& two : vertices_) {
+    low = {min(low.x, two.x), min(low.y, two.y), min(low.z, two.z)};
+    high = {max(high.x, two.x), max(high.y, two.y), max(high.z, two.z)};
+  }
+  box_ = {low[0], high[0]};
+  box_.extend(Box{low[1], high[1]});
   const Vec3 extent = box_.max - box_.min;
   is_moderate_ = sum(extent) < kReach;
   size_ = std::max({extent.x, extent.y, extent.z});
@@ -58,7 +63,8 @@ bool Fan::see_along(int axis) {
     return std::ranges::all_of(normals_,
                                [&](const Vec3Pair& normal) { return mask(sign * along(normal, axis) > bound) == 3; });
   };
-  u_ = axis == 2 ? 0 : axis + 1, v_ = axis == 0 ? 2 : axis - 1;
+  constexpr std::array kAxes{&Vec3::x, &Vec3::y, &Vec3::z};
+  u_ = kAxes[(axis + 1) % 3], v_ = kAxes[(axis + 2) % 3];
   if (!all_turn(1)) {
     if (!all_turn(-1)) return false;
     std::swap(u_, v_);
@@ -67,7 +73,7 @@ bool Fan::see_along(int axis) {
   const auto vertex = [&](std::size_t i) { return vertices_[i / 2][static_cast<int>(i % 2)]; };
   int rises = 0;
   for (std::size_t i = 0; i < n; ++i)
-    rises += vertex(i)[v_] < apex_[v_] && vertex(i + 1 == n ? 0 : i + 1)[v_] >= apex_[v_];
+    rises += vertex(i).*v_ < apex_.*v_ && vertex(i + 1 == n ? 0 : i + 1).*v_ >= apex_.*v_;
   return rises == 1;
 }
 
@@ -95,8 +101,8 @@ void Fan::set_walls(const HalfEdgeMesh& mesh, const std::vector<VertexId>& link)
 }
 
 void Fan::add_wall(std::size_t i, const Vec3& from, const Vec3& to) {
-  const double u = (from[u_] - apex_[u_]) * per_size_, v = (from[v_] - apex_[v_]) * per_size_,
-               du = (to[u_] - from[u_]) * per_size_, dv = (to[v_] - from[v_]) * per_size_;
+  const double u = (from.*u_ - apex_.*u_) * per_size_, v = (from.*v_ - apex_.*v_) * per_size_,
+               du = (to.*u_ - from.*u_) * per_size_, dv = (to.*v_ - from.*v_) * per_size_;
   FourWalls& four = walls_[i / 4];
   four.du[i % 4] = static_cast<float>(du), four.dv[i % 4] = static_cast<float>(dv);
   four.offset[i % 4] = static_cast<float>(du * v - dv * u);
@@ -105,8 +111,8 @@ void Fan::add_wall(std::size_t i, const Vec3& from, const Vec3& to) {
 
 // How far a point is within four walls, times their lengths, and what that may be off by.
 void Fan::see_walls(const Vec3& p, auto&& see) const {
-  const auto u = static_cast<float>((p[u_] - apex_[u_]) * per_size_),
-             v = static_cast<float>((p[v_] - apex_[v_]) * per_size_), reach = 1 + std::max(std::abs(u), std::abs(v));
+  const auto u = static_cast<float>((p.*u_ - apex_.*u_) * per_size_),
+             v = static_cast<float>((p.*v_ - apex_.*v_) * per_size_), reach = 1 + std::max(std::abs(u), std::abs(v));
   for (std::size_t four = 0; four < walls_.size(); ++four) {
     const FourWalls& walls = walls_[four];
     see(four, walls.du * v - walls.dv * u - walls.offset, walls.error * reach);

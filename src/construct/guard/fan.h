@@ -84,7 +84,8 @@ class Fan {
   Box box_;
   double size_ = 0, per_size_ = 0;  ///< of the longest side of the box
   bool is_moderate_ = false, is_embedded_ = false;
-  int u_ = 0, v_ = 1;  ///< the axes across, so that the fan turns counter-clockwise
+  double Vec3::*u_ = &Vec3::x;  ///< the axes across, so that the fan turns counter-clockwise
+  double Vec3::*v_ = &Vec3::y;
   std::vector<FourWalls> walls_;
   std::vector<std::uint64_t>
       within_;                    ///< by face: the walls that it has nothing outside of, and only ends of at most on

@@ -43,33 +43,47 @@ Triangle triangle(const HalfEdgeMesh& mesh, FaceId f) { return triangle(mesh, me
 
 }  // namespace
 
-SelfIntersectionGuard::SelfIntersectionGuard(const HalfEdgeMesh& mesh, std::vector<FaceId> faces)
-    : unit_cube_(bounding_box_of(mesh)), face_at_(std::move(faces)), slot_of_(mesh.face_id_count()) {
+SelfIntersectionGuard::SelfIntersectionGuard(const HalfEdgeMesh& mesh, const std::vector<FaceId>& faces)
+    : unit_cube_(bounding_box_of(mesh)), slot_of_(mesh.face_id_count()) {
+  face_at_.reserve(faces.size());
+  for (const FaceId f : faces) face_at_.push_back({{}, f});
   pack(mesh);
 }
 
 // The order of the faces is kept: they move little.
 void SelfIntersectionGuard::pack(const HalfEdgeMesh& mesh) {
-  std::erase_if(face_at_, [&](FaceId f) { return !mesh.has(f); });
+  std::erase_if(face_at_, [&](const Face& face) { return !mesh.has(face.id); });
   faces_when_packed_ = face_at_.size();
   std::vector<FloatBox> boxes;
   boxes.reserve(face_at_.size());
   for (std::uint32_t slot = 0; slot < face_at_.size(); ++slot) {
-    slot_of_[face_at_[slot]] = slot;
-    boxes.push_back(unit_cube_.at(triangle(mesh, face_at_[slot])));
+    Face& at = face_at_[slot];
+    at = face(mesh, at.id);
+    slot_of_[at.id] = slot;
+    boxes.push_back(unit_cube_.at(triangle(mesh, at.corners)));
   }
   levels_ = four_wide_tree(std::move(boxes));
   cones_ = Cones(static_cast<std::uint32_t>(face_at_.size()),
-                 [&](std::uint32_t slot) { return triangle(mesh, face_at_[slot]); });
+                 [&](std::uint32_t slot) { return triangle(mesh, face_at_[slot].corners); });
+}
+
+void SelfIntersectionGuard::collapsed(const HalfEdgeMesh& mesh, const VertexSplit& inverse) {
+  for (const std::uint32_t corner : {inverse.od, inverse.do_}) {
+    const std::uint32_t slot = slot_of_[FaceId{corner / 3}];
+    levels_[0][slot / kWidth].set(slot % kWidth, kEmptyBox);
+  }
+  changed(mesh, VertexId{index(mesh.positions().next_id()) - 1});
 }
 
 void SelfIntersectionGuard::changed(const HalfEdgeMesh& mesh, VertexId s) {
   if (mesh.face_count() < faces_when_packed_ / 2) return pack(mesh);
   for (const HalfEdgeId h : mesh.around(s)) {
     const FaceId f{index(h) / 3};
-    const Triangle t = triangle(mesh, f);
-    place(slot_of_[f], unit_cube_.at(t));
-    cones_.place(slot_of_[f], t);
+    const std::uint32_t slot = slot_of_[f];
+    face_at_[slot] = face(mesh, f);
+    const Triangle t = triangle(mesh, face_at_[slot].corners);
+    place(slot, unit_cube_.at(t));
+    if (!cones_.empty()) cones_.place(slot, t);
   }
 }
 
@@ -79,22 +93,17 @@ void SelfIntersectionGuard::place(std::uint32_t slot, const FloatBox& box) {
   std::uint32_t child = slot / kWidth;
   for (std::size_t level = 1; level < levels_.size(); ++level) {
     FourBoxes& node = levels_[level][child / kWidth];
-    const std::uint32_t lane = child % kWidth;
-    bool grows = false;
-    for (int i = 0; i < 3; ++i) {
-      grows |= box.min[i] < node.min[i][lane] || box.max[i] > node.max[i][lane];
-      node.min[i][lane] = std::min<float>(node.min[i][lane], box.min[i]);
-      node.max[i][lane] = std::max<float>(node.max[i][lane], box.max[i]);
-    }
-    if (!grows) return;
+    FloatBox around = node.child(child % kWidth);
+    if (around.holds(box)) return;
+    around.extend(box);
+    node.set(child % kWidth, around);
     child /= kWidth;
   }
 }
 
-// Puts the corners of those faces near `box` that are others first in others_, and counts them. Level by level, and
-// with few branches, which nothing could predict.
-std::size_t SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, const FloatBox& box, auto&& is_other,
-                                               auto&& is_apart_from) {
+// Puts those faces near `box` that are others first in others_, and counts them. Level by level, and with few branches,
+// which nothing could predict.
+std::size_t SelfIntersectionGuard::find_others(const FloatBox& box, auto&& is_other, auto&& is_apart_from) {
   const auto make_room = [](auto& list, std::size_t size) {
     if (list.size() < size) list.resize(2 * size);
   };
@@ -105,17 +114,17 @@ std::size_t SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, const F
   std::size_t count = 1;
   for (std::size_t level = levels_.size(); level-- > 0;) {
     make_room(children_, kWidth * count);
-    std::size_t children = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::uint32_t i = nodes_[k];
-      const SetLanes& met = kSetLanes[levels_[level][i].overlapping(boxes)];
+    const FourBoxes* const nodes = levels_[level].data();
+    std::uint32_t* end = children_.data();
+    for (const std::uint32_t i : std::span(nodes_).first(count)) {
+      const SetLanes& met = kSetLanes[nodes[i].overlapping(boxes)];
       const auto first = static_cast<std::int32_t>(kWidth * i);
       const Truth4 all = met.lanes + Truth4{first, first, first, first};
-      std::memcpy(&children_[children], &all, sizeof all);
-      children += met.count;
+      std::memcpy(end, &all, sizeof all);
+      end += met.count;
     }
+    count = std::size_t(end - children_.data());
     std::swap(nodes_, children_);
-    count = children;
     if (count > kMany && level > 0 && !cones_.empty()) {
       const auto is_apart = [&](std::uint32_t node) {
         const Cone* const cone = cones_.find(level - 1, node);
@@ -126,25 +135,24 @@ std::size_t SelfIntersectionGuard::find_others(const HalfEdgeMesh& mesh, const F
     }
   }
   make_room(others_, count);
-  std::size_t others = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::uint32_t slot = nodes_[k];
-    const auto corners = mesh.corners(face_at_[slot]);
-    const bool has_gone = corners[0] == kNoVertex;
-    if (has_gone) levels_[0][slot / kWidth].set(slot % kWidth, kEmptyBox);
-    others_[others] = corners;
-    others += std::size_t{!has_gone} & std::size_t{is_other(face_at_[slot], corners)};
+  Face* end = others_.data();
+  for (const std::uint32_t slot : std::span(nodes_).first(count)) {
+    *end = face_at_[slot];
+    end += is_other(face_at_[slot]);
   }
-  return others;
+  return std::size_t(end - others_.data());
 }
 
 namespace {
 
 auto has_no_corner_at(VertexId o, VertexId d) {
-  return [o, d](FaceId, const std::array<VertexId, 3>& corners) {
-    bool is_other = true;
-    for (const VertexId v : corners) is_other &= v != o && v != d;
-    return is_other;
+  const auto all = [](VertexId v) {
+    const auto id = static_cast<std::int32_t>(index(v));
+    return Truth4{id, id, id, id};
+  };
+  return [o = all(o), d = all(d)](const auto& face) {
+    const auto ids = std::bit_cast<Truth4>(face);
+    return (mask((ids == o) | (ids == d)) & 7) == 0;  // but for the face's own id
   };
 }
 
@@ -166,8 +174,8 @@ std::size_t SelfIntersectionGuard::count_pairs_of_fan(const HalfEdgeMesh& mesh, 
       if (!are_apart(face(i), cone)) return false;
     return true;
   };
-  const std::size_t others = find_others(mesh, unit_cube_.at(fan_.box()), has_no_corner_at(o, d), is_apart_from);
-  for (const auto& corners : std::span(others_).first(others))
+  const std::size_t others = find_others(unit_cube_.at(fan_.box()), has_no_corner_at(o, d), is_apart_from);
+  for (const auto& [corners, id] : std::span(others_).first(others))
     for (std::uint64_t met = fan_.perhaps_met(mesh, corners); met != 0; met &= met - 1)
       pairs += triangles_intersect(face(static_cast<std::size_t>(std::countr_zero(met))), triangle(mesh, corners));
   return pairs;
@@ -180,10 +188,10 @@ std::size_t SelfIntersectionGuard::count_pairs(const HalfEdgeMesh& mesh, auto&& 
   FloatBox whole = face_boxes_.front();
   for (const FloatBox& box : face_boxes_) whole.extend(box);
   std::size_t pairs = count_pairs_among_faces();
-  const std::size_t others = find_others(mesh, whole, is_other, [&](const Cone& cone) {
+  const std::size_t others = find_others(whole, is_other, [&](const Cone& cone) {
     return std::ranges::all_of(faces_, [&](const Triangle& t) { return are_apart(t, cone); });
   });
-  for (const auto& corners : std::span(others_).first(others)) {
+  for (const auto& [corners, id] : std::span(others_).first(others)) {
     const Triangle other = triangle(mesh, corners);
     const FloatBox box = unit_cube_.at(other);
     for (std::size_t i = 0; i < faces_.size(); ++i)
@@ -238,7 +246,7 @@ bool SelfIntersectionGuard::would_add_intersections(const HalfEdgeMesh& mesh, Ve
 bool SelfIntersectionGuard::would_add_intersections(const HalfEdgeMesh& mesh, HalfEdgeId flipped) {
   const HalfEdgeId g = mesh.twin(flipped);
   const FaceId left{index(flipped) / 3}, right{index(g) / 3};
-  const auto is_other = [&](FaceId f, const auto&) { return f != left && f != right; };
+  const auto is_other = [&](const Face& face) { return face.id != left && face.id != right; };
   const Vec3 &o = mesh.position(mesh.tail(flipped)), &d = mesh.position(mesh.tip(flipped));
   const Vec3 &l = mesh.position(mesh.tail(mesh.previous(flipped))), &r = mesh.position(mesh.tail(mesh.previous(g)));
   faces_ = {{r, l, o}, {l, r, d}};
@@ -250,7 +258,7 @@ bool SelfIntersectionGuard::would_add_intersections(const HalfEdgeMesh& mesh, Ha
 
 bool SelfIntersectionGuard::would_add_intersections(const HalfEdgeMesh& mesh, const std::vector<FaceId>& gone,
                                                     const std::vector<Triangle>& made) {
-  const auto is_other = [&](FaceId f, const auto&) { return !std::ranges::binary_search(gone, f); };
+  const auto is_other = [&](const Face& face) { return !std::ranges::binary_search(gone, face.id); };
   faces_ = made;
   const std::size_t after = count_pairs(mesh, is_other);
   if (after == 0) return false;

@@ -17,7 +17,7 @@ class SelfIntersectionGuard {
  public:
   /// Fast if `faces`, all of the mesh, are in an order in which what lies together in space does so in the list,
   /// mostly.
-  SelfIntersectionGuard(const HalfEdgeMesh& mesh, std::vector<FaceId> faces);
+  SelfIntersectionGuard(const HalfEdgeMesh& mesh, const std::vector<FaceId>& faces);
 
   /// Whether the new star would take part in more pairs of intersecting faces than the star that it replaces: an input
   /// that intersects itself can still be simplified, but its pairs are never multiplied.
@@ -33,15 +33,24 @@ class SelfIntersectionGuard {
   bool would_add_intersections(const HalfEdgeMesh& mesh, const std::vector<FaceId>& gone,
                                const std::vector<Triangle>& made);
 
-  /// To be told of every collapse, of every vertex moved, and of one end of every edge flipped, as it is then.
+  /// To be told of every collapse,
+  void collapsed(const HalfEdgeMesh& mesh, const VertexSplit& inverse);
+  /// and of every vertex moved, and of one end of every edge flipped, as it is then.
   void changed(const HalfEdgeMesh& mesh, VertexId s);
 
  private:
   static constexpr std::uint32_t kWidth = FourBoxes::kWidth;
 
+  /// Its corners, then its own id: as they lie in memory, and in the lanes of an exam of all of them.
+  struct Face {
+    std::array<VertexId, 3> corners;
+    FaceId id;
+  };
+  static Face face(const HalfEdgeMesh& mesh, FaceId f) { return {mesh.corners(f), f}; }
+
   void pack(const HalfEdgeMesh& mesh);
   void place(std::uint32_t slot, const FloatBox& box);
-  std::size_t find_others(const HalfEdgeMesh& mesh, const FloatBox& box, auto&& is_other, auto&& is_apart_from);
+  std::size_t find_others(const FloatBox& box, auto&& is_other, auto&& is_apart_from);
   std::size_t count_pairs_of_fan(const HalfEdgeMesh& mesh, VertexId o, VertexId d, const std::vector<VertexId>& link,
                                  const Vec3& apex);
   std::size_t count_pairs(const HalfEdgeMesh& mesh, auto&& is_other);
@@ -52,7 +61,7 @@ class SelfIntersectionGuard {
 
   const UnitCube unit_cube_;
   std::size_t faces_when_packed_ = 0;
-  std::vector<FaceId> face_at_;  ///< by slot
+  std::vector<Face> face_at_;  ///< by slot; what is gone has an empty box
   PerFace<std::uint32_t> slot_of_;
   FourWideTree levels_;  ///< over slots
   Cones cones_;
@@ -62,7 +71,7 @@ class SelfIntersectionGuard {
   std::vector<Triangle> faces_;
   std::vector<FloatBox> face_boxes_;
   std::vector<std::uint32_t> nodes_, children_;
-  std::vector<std::array<VertexId, 3>> others_;
+  std::vector<Face> others_;
 };
 
 /// In such an order.

@@ -271,7 +271,7 @@ class CollapseLoop {
     patch_.record.push_back(mesh_.collapse(h, apex));
     ++patch_.time;
     vertices_.push_back({.changed = patch_.time, .has_refused = has_refused});
-    if (guard_) guard_->changed(mesh_, s);
+    if (guard_) guard_->collapsed(mesh_, patch_.record.back());
     if (tolerance_guard_) tolerance_guard_->collapsed();
     return s;
   }

@@ -228,8 +228,7 @@ class TightCollapses {
     batch_.push_back(0);
     const Star& star = placer_.star();
     contacts_.join(star.o, star.d);
-    mesh_.collapse(h, to);
-    guard_.changed(mesh_, s);
+    guard_.collapsed(mesh_, mesh_.collapse(h, to));
     mark_changed(s);
     for (const VertexId v : star.link) mark_changed(v);
   }
