@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "render/smooth_step.h"
 #include "render/wire.h"
 
 namespace prohull::render {

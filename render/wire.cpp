@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/smooth_step.h"
-
 namespace prohull::render {
 namespace {
 

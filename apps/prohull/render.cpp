@@ -184,13 +184,13 @@ class Planner {
       if (const std::size_t faces = table_.meshes()[plan.shown].face_count(); level > 0 && faces > level)
         notes_.push_back(fmt::format("{}: no level has {} faces or fewer; the coarsest one, of {}, is drawn",
                                      input_name(path), grouped(level), grouped(faces)));
-      if (!options_.segment.empty()) plan.segment = crossings(plan.inside.value_or(plan.shown));
     }
     add(std::move(plan), plan.inside || plan.right || level != MeshTable::kFinest);
   }
 
   void add(PanelPlan plan, bool is_hull) {
     const std::size_t i = plans_.size();
+    if (!options_.segment.empty() && !plan.segment) plan.segment = crossings(plan.inside.value_or(plan.shown));
     if (const auto factor = for_panel(options_.explosions, i); factor && *factor != kNone)
       explode(plan, explosion_of(*factor));
     plan.color = color_of(for_panel(options_.colors, i).value_or(is_hull ? "blue" : "clay"));
@@ -219,7 +219,6 @@ class Planner {
     plan.shown = table_.add(std::move(has_collision ? collision : visual));
     if (table_.meshes()[plan.shown].face_count() == 0)
       throw InputError(Defect::EmptyMesh, path.string() + ": the robot has no geometry to draw");
-    if (!options_.segment.empty()) plan.segment = crossings(plan.inside.value_or(plan.shown));
     add(std::move(plan), has_collision);
   }
 
@@ -247,7 +246,6 @@ class Planner {
     TriangleMesh spheres = render::spheres(balls);
     render::require_drawable(spheres, path);
     plan.shown = table_.add(std::move(spheres));
-    if (!options_.segment.empty()) plan.segment = crossings(plan.inside.value_or(plan.shown));
     add(std::move(plan), true);
   }
 
