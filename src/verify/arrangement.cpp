@@ -15,7 +15,7 @@
 #include "geometry/triangle_predicates.h"
 #include "geometry/vector_of.h"
 #include "verify/cell.h"
-#include "verify/random_number.h"
+#include "verify/winding.h"
 
 // Why windings follow from segments. Move t outwards by a distance smaller than all others: a plane that meets no
 // corner of any face. It meets a closed surface in closed lines, around which the winding numbers of the surface are

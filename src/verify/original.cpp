@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "geometry/triangle_key.h"
 #include "geometry/usable_size.h"
 #include "mesh/closed.h"
 #include "prohull/detail/text.h"
@@ -30,9 +31,7 @@ std::size_t drop_non_finite_faces(TriangleMesh& mesh) {
 
 Box usable_box(const TriangleMesh& mesh, std::string_view name) {
   require_usable(mesh, name);
-  Box box;
-  for (const auto& corners : mesh.triangles)
-    for (const VertexId v : corners) box.extend(mesh.positions[v]);
+  const Box box = bounding_box(mesh);
   require_usable_reach(box, fmt::format("coordinates of the {}", name));
   return box;
 }
@@ -58,6 +57,29 @@ PreparedOriginal prepare_original(TriangleMesh& mesh, std::vector<std::string>& 
   else if (turned.faces > 0)
     notes.push_back(fmt::format("{} of the original {} inwards and {} as turned", counted(turned.faces, "face"),
                                 turned.faces == 1 ? "looks" : "look", turned.faces == 1 ? "counts" : "count"));
+  return result;
+}
+
+StandIn stand_in(const TriangleMesh& closed, const TriangleMesh& original) {
+  require_closed(closed, "closed");
+  StandIn result{.mesh = closed};
+  turn_outwards(result.mesh, "closed");
+  std::vector<std::pair<TriangleKey, FaceId>> known;
+  known.reserve(original.face_count());
+  for (const FaceId f : original.triangles.ids()) known.emplace_back(unoriented_key(original.triangle(f)), f);
+  std::ranges::sort(known);
+  std::vector<bool> stands(original.face_count());
+  for (const FaceId f : result.mesh.triangles.ids()) {
+    const TriangleKey corners = unoriented_key(result.mesh.triangle(f));
+    const auto first = std::lower_bound(known.begin(), known.end(), corners,
+                                        [](const auto& entry, const auto& other) { return entry.first < other; });
+    auto last = first;
+    for (; last != known.end() && last->first == corners; ++last) stands[index(last->second)] = true;
+    result.number.push_back(first != last ? first->second
+                                          : FaceId(static_cast<std::uint32_t>(original.face_count() + result.caps++)));
+  }
+  for (const FaceId f : original.triangles.ids())
+    if (!stands[index(f)]) result.rest.push_back(f);
   return result;
 }
 

@@ -6,12 +6,23 @@
 #include <string_view>
 #include <vector>
 
+#include "prohull/detail/replay.h"
 #include "prohull/triangle_mesh.h"
 #include "prohull/verification.h"
 #include "verify/known_solid.h"
-#include "verify/stand_in.h"
 
 namespace prohull::verify {
+
+/// A closed mesh that stands for an original which is not closed.
+struct StandIn {
+  TriangleMesh mesh;                ///< turned outwards
+  std::vector<FaceId> number = {};  ///< of each face in the original; caps are numbered behind its faces
+  std::size_t caps = 0;             ///< faces of the mesh that are no triangles of the original, in either orientation
+  std::vector<FaceId> rest = {};    ///< faces of the original that are no faces of the mesh
+};
+
+/// Throws InputError if `closed` is empty, not closed or not finite.
+StandIn stand_in(const TriangleMesh& closed, const TriangleMesh& original);
 
 /// What is known of an original once it is prepared.
 struct PreparedOriginal {
@@ -64,6 +75,9 @@ class Original {
 Verification verify_hull(const TriangleMesh& hull, Original& original, HullSide side,
                          const VerificationOptions& options);
 Verification verify_hull(const ProgressiveHull& hull, Original& original, const VerificationOptions& options);
+
+/// verify_replay of an original that turn_outwards leaves as it is.
+ReplayReport replay(const ProgressiveHull& hull, const TriangleMesh& outwards, const Progress& progress);
 
 /// What a union's verdict says of the original.
 void take_facts(const PreparedOriginal& original, Verdict& verdict);

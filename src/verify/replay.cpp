@@ -1,4 +1,4 @@
-#include "verify/replay.h"
+#include "verify/original.h"
 
 #include <fmt/format.h>
 

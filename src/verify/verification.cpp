@@ -17,7 +17,6 @@
 #include "prohull/error.h"
 #include "verify/gap.h"
 #include "verify/original.h"
-#include "verify/replay.h"
 #include "verify/solids.h"
 #include "verify/surface.h"
 

@@ -6,7 +6,6 @@
 
 #include "geometry/triangle_predicates.h"
 #include "geometry/vector_of.h"
-#include "verify/random_number.h"
 
 namespace prohull::verify {
 namespace {

@@ -16,7 +16,7 @@
 #include "query/brute_force.h"
 #include "query/exact_points.h"
 #include "random.h"
-#include "verify/distance.h"
+#include "verify/offenders.h"
 
 namespace prohull {
 namespace {

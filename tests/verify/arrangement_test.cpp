@@ -12,8 +12,8 @@
 #include "random.h"
 #include "verify/oracle.h"
 #include "verify/random_chains.h"
-#include "verify/random_number.h"
 #include "verify/solids.h"
+#include "verify/winding.h"
 
 namespace prohull {
 namespace {

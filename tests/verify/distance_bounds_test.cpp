@@ -12,7 +12,7 @@
 #include "prohull/sample.h"
 #include "prohull/tolerances.h"
 #include "prohull/union_verification.h"
-#include "verify/distance.h"
+#include "verify/offenders.h"
 
 namespace prohull {
 namespace {
