@@ -145,12 +145,8 @@ bool is_apart_from_ray(const Triangle& t, const Vec3& p) {
 /// (eps, eps^2). A triangle that holds p itself counts as not met.
 int winding_of(const Triangle& t, const Vec3& p) {
   if (is_apart_from_ray(t, p)) return 0;
-  const auto turn_of = [&](const Vec3& a, const Vec3& b) {
-    const int exact = turn(2, a, b, p);
-    return exact != 0 ? exact : turn_of_moved(a, b);
-  };
-  const int turns = turn_of(t.a, t.b);
-  if (turns == 0 || turn_of(t.b, t.c) != turns || turn_of(t.c, t.a) != turns) return 0;
+  const int turns = turn_around_moved(t, p);
+  if (turns == 0) return 0;
   const Side s = side(t.a, t.b, t.c, p);
   return turns > 0 ? s == Side::Inside : -(s == Side::Outside);
 }

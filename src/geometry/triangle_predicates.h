@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "geometry/predicates.h"
+#include "geometry/rounded_turn.h"
 
 namespace prohull {
 
@@ -28,12 +29,21 @@ inline int turn_of_moved(const Vec3& a, const Vec3& b) {
   return a.x < b.x ? 1 : a.x > b.x ? -1 : 0;
 }
 
+/// How t turns around a ray from p towards +z, p moved by (eps, eps^2); 0 if the ray passes it by.
+inline int turn_around_moved(const Triangle& t, const Vec3& p) {
+  const auto turn_of = [&](const Vec3& a, const Vec3& b) {
+    const int exact = turn(2, a, b, p);
+    return exact != 0 ? exact : turn_of_moved(a, b);
+  };
+  const int turns = turn_of(t.a, t.b);
+  return turns != 0 && turn_of(t.b, t.c) == turns && turn_of(t.c, t.a) == turns ? turns : 0;
+}
+
 /// An axis along which t projects to a triangle with an area, usually the one closest to its normal;
 /// none if t has no area. Exact.
 inline std::optional<int> projection_axis(const Triangle& t) {
   const Vec3 n = cross(t.b - t.a, t.c - t.a);
-  const double x = std::abs(n.x), y = std::abs(n.y), z = std::abs(n.z);
-  const int guess = z >= x && z >= y ? 2 : y >= x ? 1 : 0;
+  const int guess = dominant_axis(n);
   for (const int axis : {guess, (guess + 1) % 3, (guess + 2) % 3})
     if (turn(axis, t.a, t.b, t.c) != 0) return axis;
   return std::nullopt;

@@ -5,15 +5,6 @@
 #include "geometry/triangle_predicates.h"
 
 namespace prohull {
-namespace {
-
-/// The ray goes towards +z.
-int turn_of_moved(const Vec3& a, const Vec3& b, const Vec3& p) {
-  const int exact = turn(2, a, b, p);
-  return exact != 0 ? exact : turn_of_moved(a, b);
-}
-
-}  // namespace
 
 // All points are in the plane of a triangle without area, which winds around none. Its points are on edges of others.
 WindingNumber::WindingNumber(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
@@ -31,8 +22,8 @@ std::optional<int> WindingNumber::at(const Vec3& p) const {
     const Triangle& t = triangles_[i];
     const Side s = side(t.a, t.b, t.c, p);
     if (s == Side::On && box_of(t).contains(p)) undecided = true;
-    const int turns = turn_of_moved(t.a, t.b, p);
-    if (turns == 0 || turn_of_moved(t.b, t.c, p) != turns || turn_of_moved(t.c, t.a, p) != turns) return;
+    const int turns = turn_around_moved(t, p);
+    if (turns == 0) return;
     // The ray leaves through a triangle that it sees from inside: counter-clockwise seen from +z, p below.
     undecided |= s == Side::On;
     winding += turns > 0 && s == Side::Inside;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "geometry/predicates.h"
+#include "geometry/triangle_predicates.h"
 #include "mesh/half_edge_mesh.h"
 #include "prohull/error.h"
 
@@ -185,12 +185,6 @@ struct FlatFaces {
   std::vector<FaceId> upward, downward;
 };
 
-std::optional<int> axis_of(const std::array<Vec3, 3>& face) {
-  for (const int axis : {0, 1, 2})
-    if (turn(axis, face[0], face[1], face[2]) != 0) return axis;
-  return std::nullopt;
-}
-
 FlatFaces flat_part(const VoidComplex& complex, const VoidComplex::Neighbour& first, int axis,
                     std::vector<bool>& seen) {
   using Kind = VoidComplex::Neighbour::Kind;
@@ -227,7 +221,7 @@ std::vector<FaceId> sheets_without_thickness(const VoidComplex& complex) {
     if (above.kind != VoidComplex::Neighbour::Kind::Tetrahedron || !complex.is_flat(above.id) || seen[above.id])
       continue;
     const auto [apex, a, b, c] = complex[above].corners;
-    const auto axis = axis_of({complex.position(a), complex.position(b), complex.position(c)});
+    const auto axis = projection_axis({complex.position(a), complex.position(b), complex.position(c)});
     if (!axis) continue;
     const FlatFaces part = flat_part(complex, above, *axis, seen);
     if (part.upward.empty() || part.downward.empty()) continue;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geometry/no_index.h"
-#include "geometry/predicates.h"
+#include "geometry/triangle_predicates.h"
 #include "prohull/detail/disjoint_sets.h"
 
 namespace prohull {
@@ -52,8 +52,7 @@ class Inspector {
       }
       const Triangle t = mesh_.triangle(f);
       if (!(is_finite(t.a) && is_finite(t.b) && is_finite(t.c))) continue;
-      if (turn(0, t.a, t.b, t.c) == 0 && turn(1, t.a, t.b, t.c) == 0 && turn(2, t.a, t.b, t.c) == 0)
-        ++report_.zero_area_faces;
+      if (!projection_axis(t)) ++report_.zero_area_faces;
     }
   }
 
