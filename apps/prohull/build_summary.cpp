@@ -22,13 +22,13 @@ void say_all(const std::vector<std::string>& lines) {
 }
 
 void print_input(const BuildOptions& options, const BuildOutcome& outcome) {
-  say("{}\n", line_of_input(input_name(options.in), outcome.made));
+  say("{}\n", line_of_input(input_name(options.in), outcome.made.input));
   if (options.recenter && outcome.offset == Vec3{})
     say("  not recentered: the mesh is near the origin\n");
   else if (options.recenter)
     say("  recentered: {0} was subtracted from the coordinates; add it to place the hull (verify --offset {0})\n",
         text_of_offset(outcome.offset));
-  say_all(lines_of_repairs(outcome.made));
+  say_all(lines_of_repairs(outcome.made.input));
 }
 
 void print_regions(const BuildOutcome& outcome, const Written& written) {

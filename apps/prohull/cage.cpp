@@ -87,8 +87,7 @@ void write_certificate(File& file, const CertifiedOriginal& original, const Cage
 
 void print_input(const CageRunOptions& options, const Cage& cage) {
   const RepairedMesh& input = cage.outer.made.input;
-  say("{}: {}, {}\n", input_name(options.in), counted(input.found.faces, "face"),
-      counted(input.found.components, "component"));
+  say("{}\n", line_of_input(input_name(options.in), input));
   for (const std::string& repair : describe(input.repairs)) say("  {}\n", repair);
   if (cage.inner && input.repairs.dropped_components > 0)
     say("  that is for the outer hull alone: the inner hull stays out of cavities, which lie inside of others\n");

@@ -36,10 +36,8 @@ InsideVolume inside_of(const ClosedSolid& solid) {
 
 void print_summary(const RepairRunOptions& options, const RepairOutcome& outcome) {
   const ClosedSolid& solid = outcome.solid;
-  say("{}: {}, {}\n", input_name(options.in), counted(solid.input.found.faces, "face"),
-      counted(solid.input.found.components, "component"));
-  for (const std::string& repair : describe(solid.input.repairs)) say("  {}\n", repair);
-  if (!solid.input.closed) say("  bounds no solid: {}\n", solid.input.obstacle);
+  say("{}\n", line_of_input(input_name(options.in), solid.input));
+  for (const std::string& line : lines_of_repairs(solid.input)) say("  {}\n", line);
   if (outcome.is_wrap() && solid.input.closed)
     say("  the repaired mesh{} does not cover all triangles\n",
         options.solid.float32_coordinates ? ", with float32 coordinates (.ply, .obj and .off keep doubles)," : "");

@@ -73,6 +73,9 @@ struct RepairedMesh {
   Repairs repairs;       ///< the repairs that were made; if `closed` is empty, those before the obstacle
   std::string obstacle;  ///< the first defect that was left; empty if there is a closed mesh
   MeshReport found;      ///< describes the input before the repairs
+
+  TriangleMesh with_caps() const;  ///< `original` and `caps`
+  const TriangleMesh* closed_mesh() const { return closed ? &closed->mesh : nullptr; }
 };
 
 /// Makes a closed mesh of any triangles, if that takes no new faces but caps. It does what closed_mesh does. It also

@@ -54,7 +54,7 @@ void add_summary(val& object, const std::string& file, const EnclosingHull& hull
                  const EnclosingOptions& options) {
   const HullMeasures measures = measures_of(made, hull, options.bounds, options.progress);
   const ToldHull told{made, hull, options, measures, self_intersections_of_input(made)};
-  std::vector<std::string> lines = lines_of_repairs(made);
+  std::vector<std::string> lines = lines_of_repairs(made.input);
   lines.insert(lines.end(), hull.notes.begin(), hull.notes.end());
   lines.push_back(line_of_hull(file, told));
   const std::string content = hull.certified ? mesh_content(file, hull.mesh) : "";

@@ -36,8 +36,7 @@ class Judges {
   Judges(EnclosingHulls& made, const EnclosingOptions& options) {
     const bool is_closed = made.input.closed.has_value();
     const bool is_outer = options.hull.side == HullSide::Outer;
-    TriangleMesh every_triangle = made.input.original;
-    append(every_triangle, made.input.caps);
+    const TriangleMesh every_triangle = made.input.with_caps();
     const SharedMesh closed = is_closed ? shared(std::move(made.input.closed->mesh)) : nullptr;
     given_ = closed && *closed == made.input.original ? closed : shared(std::move(made.input.original));
     original_ = is_closed ? closed : given_;

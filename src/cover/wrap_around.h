@@ -11,10 +11,6 @@ inline Wrap wrap_around(const TriangleMesh& with_caps, double spacing, const Pro
   return wrap(with_caps, {.spacing = spacing, .seal_rooms = true, .closing = kClosing * spacing, .progress = progress});
 }
 
-inline TriangleMesh with_caps(const RepairedMesh& input) {
-  TriangleMesh all = input.original;
-  append(all, input.caps);
-  return all;
-}
+inline TriangleMesh with_caps(const RepairedMesh& input) { return input.with_caps(); }
 
 }  // namespace prohull::cover

@@ -1,7 +1,6 @@
 #include <optional>
 #include <utility>
 
-#include "enclose/certify.h"
 #include "enclose/making.h"
 #include "prohull/detail/stopwatch.h"
 #include "prohull/mesh_report.h"

@@ -163,11 +163,10 @@ double CageMaker::distance_of(const EnclosingHulls& made, const TriangleMesh& me
 std::optional<Verification> CageMaker::proven(const EnclosingHulls& made, HullSide side,
                                               const TriangleMesh& mesh) const {
   const RepairedMesh& input = made.input;
-  Verification verdict = of_file(
-      verify_hull(
-          mesh, input.original, side,
-          {.closed = input.closed ? &input.closed->mesh : nullptr, .max_offenders = 0, .progress = options_.progress}),
-      input);
+  Verification verdict =
+      of_file(verify_hull(mesh, input.original, side,
+                          {.closed = input.closed_mesh(), .max_offenders = 0, .progress = options_.progress}),
+              input);
   if (!verdict.encloses) return std::nullopt;
   TriangleMesh beside = made.solids[made.hulls[0].solid].doors;
   if (!input.closed) append(beside, input.caps);

@@ -56,6 +56,11 @@ struct Attempt {
 /// Builds and certifies it. None if the recipe cannot be followed: the gap's body of the solid intersects itself.
 std::optional<Attempt> attempt(const Candidate& candidate, const Request& request, Solids& solids);
 
+/// Decides exactly whether the hull is one of the triangles that were given, and sets its `certified`, `verdict` and
+/// `proof`. With padding, it is moved away first as far as that takes, and its `padding` is what is proven. Where few
+/// triangles of a closed mesh stick out, as those of folds, vertices of the hull are lifted over them.
+void certify(Attempt& attempt, const Request& request, Solids& solids);
+
 /// Sets how far the hull is from bounds that it was not built to keep.
 void measure(Attempt& made, const HullBounds& bounds, const Request& request, Solids& solids);
 

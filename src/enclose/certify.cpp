@@ -1,4 +1,4 @@
-#include "enclose/certify.h"
+#include "enclose/candidate.h"
 
 #include <iterator>
 #include <optional>

@@ -24,19 +24,16 @@ constexpr double kPerDiagonal = 100;  // spacings of wraps that estimate volumes
 void judge(ClosedSolid& solid, const ClosedSolidOptions& options) {
   if (options.float32_coordinates)
     for (Vec3& p : solid.mesh.positions) p = nearest_float32(p);
-  const auto& closed = solid.input.closed;
   solid.verdict = of_file(verify_hull(solid.mesh, solid.input.original, HullSide::Outer,
-                                      {.closed = closed ? &closed->mesh : nullptr, .progress = options.progress}),
+                                      {.closed = solid.input.closed_mesh(), .progress = options.progress}),
                           solid.input);
 }
 
 TriangleMesh wrap_of(const RepairedMesh& input, double spacing, double flatness, const ClosedSolidOptions& options) {
-  TriangleMesh to_cover = input.original;
-  append(to_cover, input.caps);
-  Wrap made = wrap(to_cover, {.spacing = spacing,
-                              .seal_rooms = !input.closed && options.repair.open_shells == OpenShells::Close,
-                              .flatness = flatness,
-                              .progress = options.progress});
+  Wrap made = wrap(input.with_caps(), {.spacing = spacing,
+                                       .seal_rooms = !input.closed && options.repair.open_shells == OpenShells::Close,
+                                       .flatness = flatness,
+                                       .progress = options.progress});
   return closed_mesh(std::move(made.mesh)).mesh;
 }
 

@@ -10,7 +10,6 @@
 
 #include "enclose/candidates.h"
 #include "enclose/known_void.h"
-#include "enclose/usable_options.h"
 #include "parallel/arena.h"
 #include "prohull/detail/finite.h"
 #include "prohull/detail/float32_hull.h"
@@ -141,8 +140,7 @@ RepairedMesh prepared_for_hulls(TriangleMesh triangles, const EnclosingOptions& 
 }
 
 TriangleMesh triangles_to_cover(const EnclosingHulls& made, const EnclosingHull& hull) {
-  TriangleMesh all = made.input.original;
-  append(all, made.input.caps);
+  TriangleMesh all = made.input.with_caps();
   append(all, made.solids[hull.solid].doors);
   return all;
 }
@@ -158,6 +156,18 @@ EnclosingHulls enclosing_hulls(TriangleMesh triangles, std::span<const std::size
 
 EnclosingHull enclosing_hull(TriangleMesh triangles, std::size_t target_faces, const EnclosingOptions& options) {
   return std::move(enclosing_hulls(std::move(triangles), {&target_faces, 1}, options).hulls.front());
+}
+
+FinestLevel finest_level(const EnclosingHulls& made, const EnclosingHull& hull) {
+  switch (hull.source) {
+    case Source::ConvexHull:
+      return FinestLevel::ConvexHull;
+    case Source::Wrap:
+      return FinestLevel::Wrap;
+    default:
+      return made.input.repairs.any() || made.solids[hull.solid].folds.faces > 0 ? FinestLevel::Repaired
+                                                                                 : FinestLevel::Input;
+  }
 }
 
 }  // namespace prohull

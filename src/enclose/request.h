@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 
 #include "prohull/enclosing_hull.h"
 #include "prohull/tight_hull.h"
 
 namespace prohull {
+
+/// Throws InputError where the options of a hull exclude each other, or no hull can be what they say.
+void require_usable(const TriangleMesh& triangles, std::span<const std::size_t> target_faces,
+                    const EnclosingOptions& options);
 
 /// What is asked for, and of which triangles, repaired. Nothing in it changes while hulls are built.
 struct Request {

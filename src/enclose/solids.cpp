@@ -21,15 +21,10 @@
 #include "verify/solid_volume.h"
 
 namespace prohull {
-namespace {
-
-const TriangleMesh* closed_mesh_of(const RepairedMesh& input) { return input.closed ? &input.closed->mesh : nullptr; }
-
-}  // namespace
 
 Solids::Solids(const Request& request)
     : request_(request),
-      original_(request.input.original, closed_mesh_of(request.input)),
+      original_(request.input.original, request.input.closed_mesh()),
       repair_seconds_(request.repair_seconds) {
   const EnclosingOptions& options = request.options;
   const Stopwatch watch;

@@ -195,14 +195,14 @@ std::size_t ToldHull::added_self_intersections() const {
   return hull.self_intersections - std::min(hull.self_intersections, input_self_intersections);
 }
 
-std::string line_of_input(const std::string& name, const EnclosingHulls& made) {
-  return fmt::format("{}: {}, {}", name, counted(made.input.found.faces, "face", "faces"),
-                     counted(made.input.found.components, "component", "components"));
+std::string line_of_input(const std::string& name, const RepairedMesh& input) {
+  return fmt::format("{}: {}, {}", name, counted(input.found.faces, "face", "faces"),
+                     counted(input.found.components, "component", "components"));
 }
 
-std::vector<std::string> lines_of_repairs(const EnclosingHulls& made) {
-  std::vector<std::string> lines = describe(made.input.repairs);
-  if (!made.input.closed) lines.push_back("bounds no solid: " + made.input.obstacle);
+std::vector<std::string> lines_of_repairs(const RepairedMesh& input) {
+  std::vector<std::string> lines = describe(input.repairs);
+  if (!input.closed) lines.push_back("bounds no solid: " + input.obstacle);
   return lines;
 }
 

@@ -1,4 +1,4 @@
-#include "enclose/usable_options.h"
+#include "enclose/request.h"
 
 #include <fmt/format.h>
 

@@ -210,6 +210,12 @@ ClosedMesh closed_mesh(TriangleMesh mesh) {
 
 Names<OpenShells> open_shells_names() { return kOpenShellsNames; }
 
+TriangleMesh RepairedMesh::with_caps() const {
+  TriangleMesh all = original;
+  append(all, caps);
+  return all;
+}
+
 RepairedMesh repaired_mesh(TriangleMesh mesh, const RepairOptions& options) {
   require_faces(mesh);
   RepairedMesh result;

@@ -68,8 +68,8 @@ struct ToldHull {
 };
 
 // Lines of a summary, in this order.
-std::string line_of_input(const std::string& name, const EnclosingHulls& made);
-std::vector<std::string> lines_of_repairs(const EnclosingHulls& made);
+std::string line_of_input(const std::string& name, const RepairedMesh& input);
+std::vector<std::string> lines_of_repairs(const RepairedMesh& input);
 std::string line_of_hull(const std::string& name, const ToldHull& told);
 std::vector<std::string> lines_of_shape(const ToldHull& told);
 std::vector<std::string> lines_of_limits(const ToldHull& told);
