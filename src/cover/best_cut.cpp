@@ -283,14 +283,6 @@ class Sweep {
   double bound_ = 0, slack_ = 0;
 };
 
-/// So that hulls of parts of it have no volume by which cuts could be compared.
-bool is_flat(const Part& part) {
-  static thread_local GrowingHull hull;
-  hull.clear();
-  hull.add(hull_points(part));
-  return hull.volume() == 0;
-}
-
 /// What planes that are close to each other have in common: the hulls of what lies on the same side of all of them.
 class Neighborhood {
  public:
@@ -378,13 +370,20 @@ std::vector<Plane> neighbors(const Plane& plane, const Vec3& center, double angl
 
 }  // namespace
 
+double quick_volume(const Part& part) {
+  static thread_local GrowingHull hull;
+  hull.clear();
+  hull.add(hull_points(part));
+  return hull.volume();
+}
+
 double greatest_merit(double volume) { return volume * (1 + kUnevenness); }
 
 std::vector<Cut> cuts(const Part& part, const Solid& solid, int offsets, std::size_t count, double most) {
   static const std::vector<Vec3> all = directions();
   const auto part_edges = edges(part);
   std::vector<Cut> result;
-  if (part.points.size() < 4 || is_flat(part)) return result;
+  if (part.points.size() < 4 || quick_volume(part) == 0) return result;
   std::vector<std::optional<Sweep>> sweeps(all.size());
   oneapi::tbb::parallel_for(std::size_t{0}, all.size(),
                             [&](std::size_t i) { sweeps[i].emplace(part, part_edges, all[i], solid, offsets); });

@@ -22,6 +22,9 @@ struct Cut {
 std::vector<Cut> cuts(const Part& part, const Solid& solid, int offsets, std::size_t count,
                       double most = std::numeric_limits<double>::infinity());
 
+/// Of the convex hull of a part. 0 of what is too flat for cuts to be compared by volumes.
+double quick_volume(const Part& part);
+
 /// Of a cut whose halves have this volume together.
 double greatest_merit(double volume);
 

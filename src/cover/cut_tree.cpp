@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "cover/best_cut.h"
-#include "cover/growing_hull.h"
 #include "verify/solid_volume.h"
 
 namespace prohull::cover {
@@ -295,13 +294,6 @@ class Pruning {
   const std::vector<std::vector<double>> volumes_;  // by node
   CutTree result_;
 };
-
-double quick_volume(const Part& part) {
-  static thread_local GrowingHull hull;
-  hull.clear();
-  hull.add(hull_points(part));
-  return hull.volume();
-}
 
 /// Moves each plane of a tree as long as that makes the volume of all leaves less; from the root on. One node after
 /// another: the meter throws, and what is thrown in one parallel loop would end others half done.

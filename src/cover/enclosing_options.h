@@ -5,10 +5,7 @@
 namespace prohull::cover {
 
 inline EnclosingOptions enclosing_options(unsigned threads, const Progress& progress) {
-  EnclosingOptions options;
-  options.hull.threads = threads;
-  options.progress = progress;
-  return options;
+  return {.hull = {.threads = threads}, .progress = progress};
 }
 
 }  // namespace prohull::cover

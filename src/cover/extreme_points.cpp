@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "prohull/convex_hull.h"
+#include "prohull/detail/finite.h"
 
 namespace prohull::cover {
 
@@ -20,11 +22,8 @@ ExtremePoints::ExtremePoints(const TriangleMesh& mesh) {
   unit = std::max({half.x, half.y, half.z, std::numeric_limits<double>::min()});
   const bool is_flat = extreme.face_count() == 0;
   if (is_flat) extreme = mesh;
-  PerVertex<char> is_used(extreme.vertex_count(), 0);
-  for (const auto& corners : extreme.triangles)
-    for (const VertexId v : corners) is_used[v] = 1;
-  for (const VertexId v : extreme.positions.ids())
-    if (is_used[v]) world.push_back(extreme.positions[v]);
+  extreme = without_unused_vertices(std::move(extreme));
+  world.assign(extreme.positions.begin(), extreme.positions.end());
   for (Vec3& p : extreme.positions) p = (p - center) / unit;
   hull = is_flat ? TriangleMesh{} : convex_hull(extreme);
   if (hull.face_count() == 0) hull = padded_convex_hull(extreme, kSpare);

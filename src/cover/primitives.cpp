@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
+#include <utility>
+#include <vector>
 
+#include "cover/polytope.h"
 #include "geometry/float32.h"
-#include "prohull/convex_hull.h"
 
 namespace prohull::cover {
 
@@ -26,14 +27,13 @@ TriangleMesh mesh_of(const OrientedBox& box, bool float32_coordinates) {
   const double margin =
       float32_coordinates ? std::max(largest * 0x1p-23, 0x1p-148) : std::max(largest * 0x1p-49, 0x1p-1070);
   const Vec3 half = box.half_sizes + Vec3{margin, margin, margin};
-  TriangleMesh corners;
+  std::vector<Vec3> corners;
   for (int i = 0; i < 8; ++i) {
     const Vec3 p = box.center + box.axes[0] * (i & 1 ? half.x : -half.x) + box.axes[1] * (i & 2 ? half.y : -half.y) +
                    box.axes[2] * (i & 4 ? half.z : -half.z);
-    corners.positions.push_back(float32_coordinates ? nearest_float32(p) : p);
+    corners.push_back(float32_coordinates ? nearest_float32(p) : p);
   }
-  for (std::uint32_t i = 2; i < 8; ++i) corners.triangles.push_back({VertexId{0}, VertexId{1}, VertexId{i}});
-  return convex_hull(corners);
+  return convex_hull_of(std::move(corners));
 }
 
 }  // namespace prohull::cover

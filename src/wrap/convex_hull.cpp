@@ -9,6 +9,7 @@
 #include "geometry/directions.h"
 #include "geometry/no_index.h"
 #include "geometry/predicates.h"
+#include "prohull/detail/finite.h"
 
 namespace prohull {
 namespace {
@@ -159,13 +160,9 @@ std::vector<Vec3> ball_corners(std::size_t count) {
 
 /// The convex hull of all sums of a vertex that triangles use and an offset.
 TriangleMesh convex_hull_of_sums(const TriangleMesh& mesh, const std::vector<Vec3>& offsets, double scale) {
-  PerVertex<char> is_used(mesh.vertex_count(), 0);
-  for (const auto& corners : mesh.triangles)
-    for (const VertexId v : corners) is_used[v] = 1;
   TriangleMesh sums;
-  for (const VertexId v : mesh.positions.ids())
-    if (is_used[v])
-      for (const Vec3& offset : offsets) sums.positions.push_back(mesh.positions[v] + offset * scale);
+  for (const Vec3& p : without_unused_vertices(mesh).positions)
+    for (const Vec3& offset : offsets) sums.positions.push_back(p + offset * scale);
   for (std::uint32_t i = 2; i < sums.vertex_count(); ++i)
     sums.triangles.push_back({VertexId{0}, VertexId{i - 1}, VertexId{i}});
   return convex_hull(sums);
