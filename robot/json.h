@@ -4,6 +4,7 @@
 
 #include "prohull/detail/shapes.h"
 #include "prohull/enclosure.h"
+#include "prohull/verdict.h"
 
 // What stands the same way in all reports, and on pages.
 namespace prohull {
@@ -17,5 +18,12 @@ inline void to_json(nlohmann::json& json, const Ball& ball) {
 inline void to_json(nlohmann::json& json, const Offender& o) {
   json = {{"face", index(o.face)}, {"point", o.point}, {"distance", o.distance}};
 }
+
+/// Throws InputError(Malformed) with `file`.
+nlohmann::json parsed_json(std::string_view text, const std::string& file);
+
+/// The verdict as all reports have it.
+nlohmann::json facts(const Verdict& verdict);
+nlohmann::json facts(const DistanceBounds& bounds);  ///< `farthest` is null where no point is known to be away
 
 }  // namespace prohull

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "prohull/detail/finite.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 #include "robot/form_measures.h"
@@ -40,6 +41,13 @@ TriangleMesh mesh_triangles(const MeshFile& mesh) {
   if (mirrors(mesh.scale))
     for (auto& corners : triangles.triangles) std::swap(corners[1], corners[2]);
   return triangles;
+}
+
+TriangleMesh finite_triangles(TriangleMesh mesh) {
+  mesh = with_finite_faces(std::move(mesh));
+  for (Vec3& p : mesh.positions)
+    if (!is_finite(p)) p = {};
+  return mesh;
 }
 
 TriangleMesh in_frame(TriangleMesh mesh, const Pose& origin, const Frame& frame) {

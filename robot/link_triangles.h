@@ -35,6 +35,9 @@ TriangleMesh form_mesh(const Form& form, Curved curved, std::size_t segments = 6
 /// Vertices that are not finite are kept. Throws InputError as read_mesh, and CannotRead if the file was not found.
 TriangleMesh mesh_triangles(const MeshFile& mesh);
 
+/// Without the faces that have a corner which is not finite. Corners that are not are 0.
+TriangleMesh finite_triangles(TriangleMesh mesh);
+
 /// All shapes that are meshes or primitives, in `frame`. Curved forms as meshes around them. OtherForm is left out.
 TriangleMesh link_triangles(std::span<const Shape> shapes, const Frame& frame);
 

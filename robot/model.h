@@ -15,6 +15,9 @@
 
 namespace prohull::robot {
 
+/// No number of a link, of a joint and so on.
+inline constexpr auto kNone = static_cast<std::size_t>(-1);
+
 // A robot as its file describes it, whichever format that has. Lengths are in metres, angles in radians.
 
 struct MeshFile {

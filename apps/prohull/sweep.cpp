@@ -137,12 +137,9 @@ std::vector<LinkSweep> sweeps_of_robot(const SweepRunOptions& options, SweepOpti
 
 void add_hull(const SweepRunOptions& options, bool float32, SweptZone& zone) {
   ProgressLine line;
-  EnclosingOptions how;
-  how.hull.float32_coordinates = float32;
-  how.hull.threads = options.sweep.threads;
-  how.progress = std::ref(line);
-  const TriangleMesh all = together(zone.pieces());
-  zone.hull = enclosing_hull(all, options.faces, how);
+  zone.hull = enclosing_hull(
+      together(zone.pieces()), options.faces,
+      {.hull = {.float32_coordinates = float32, .threads = options.sweep.threads}, .progress = std::ref(line)});
 }
 
 bool write(const SweepRunOptions& options, const std::string& suffix, const SweptZone& zone, Outputs& outputs) {

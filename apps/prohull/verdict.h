@@ -7,7 +7,7 @@
 #include "prohull/detail/summary.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/verdict.h"
-#include "robot/report/verdict_facts.h"
+#include "robot/json.h"
 
 namespace prohull::cli {
 

@@ -9,7 +9,6 @@
 
 #include "prohull/closed_solid.h"
 #include "prohull/convex_hull.h"
-#include "prohull/detail/finite.h"
 #include "prohull/detail/solid_pieces.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/enclosure.h"
@@ -74,15 +73,6 @@ double mean_over(const TriangleMesh& surface, Distance distance) {
 }
 
 std::string millimetres(double metres) { return fmt::format("{:.3g} mm", metres * 1000); }
-
-/// Drops the faces that have a corner which is not finite. Returns how many there were.
-std::size_t drop_non_finite(TriangleMesh& mesh) {
-  const std::size_t given = mesh.face_count();
-  mesh = with_finite_faces(std::move(mesh));
-  for (Vec3& p : mesh.positions)
-    if (!is_finite(p)) p = {};
-  return given - mesh.face_count();
-}
 
 /// One link. Everything is in the common frame of its shapes, if they have one, so that nothing is rounded.
 class LinkChecker {
@@ -160,7 +150,9 @@ class LinkChecker {
     TriangleMesh mesh = file ? mesh_triangles(*file) : form_mesh(shape.form, Curved::Around);
     for (const Vec3& p : mesh.positions) see(p, pose_of(shape));
     mesh = in_frame(std::move(mesh), shape.origin, frame_);
-    if (const std::size_t dropped = drop_non_finite(mesh); dropped > 0)
+    const std::size_t given = mesh.face_count();
+    mesh = finite_triangles(std::move(mesh));
+    if (const std::size_t dropped = given - mesh.face_count(); dropped > 0)
       note(fmt::format("{}: faces with a corner that is not finite: {}; they are left out", file->uri, dropped));
     return mesh;
   }

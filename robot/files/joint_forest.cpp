@@ -12,8 +12,6 @@
 namespace prohull::robot {
 namespace {
 
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-
 /// Listed joints that move one link against another, one after the other.
 struct Edge {
   std::size_t first = 0, count = 0;  // listed joints

@@ -9,6 +9,7 @@
 #include "robot/files/mjcf_model.h"
 #include "robot/files/xml_values.h"
 #include "robot/mimics.h"
+#include "robot/motion/kinematics.h"
 #include "robot/transform.h"
 
 namespace prohull::robot {
@@ -26,17 +27,13 @@ class MjcfReader {
     for (const MjcfBody& body : model_.bodies()) add_link(body);
     if (file_.robot.links.empty()) refuse_without_bodies();
     for (std::size_t body = 0; body < model_.bodies().size(); ++body) add_joints(body);
-    for (const XmlElement* section : document_.root().children)
-      if (section->name == "equality")
-        for (const XmlElement* element : section->children)
-          if (element->name == "joint") follow(*element);
+    for (const XmlElement* section : document_.root().children_called("equality"))
+      for (const XmlElement* element : section->children_called("joint")) follow(*element);
     set_joints(file_.robot, std::move(listed_), in_world_, JointType::Fixed, file_.notes);
     if (const Joint* joint = joint_in_mimic_loop(file_.robot))
       document_.refuse(document_.root(), fmt::format("joint '{}' in line {} follows itself by way of <equality>",
                                                      joint->name, joint->line));
-    file_.format = RobotFormat::Mjcf;
     file_.path = document_.file();
-    file_.text = document_.text();
     return std::move(file_);
   }
 
@@ -206,9 +203,7 @@ class MjcfReader {
     const std::vector<double> ref = mjcf_numbers(model_, element, "ref", 1, 1);
     if (ref.empty() || ref[0] == 0) return;
     joint.rest = bounded(document_, *element.element, {ref[0] * unit_of(joint), 0, 0}).x;
-    const Pose back = turns(joint) ? rotation_about(joint.axis, -joint.rest) : translation_by(joint.axis * -joint.rest);
-    const Pose at_anchor = composed(back, translation_by(-joint.anchor));
-    joint.origin = composed(joint.origin, composed(translation_by(joint.anchor), at_anchor));
+    joint.origin = joint_pose(joint, -joint.rest);
   }
 
   void read_limits(const MjcfElement& element, Joint& joint) const {

@@ -111,8 +111,8 @@ MjcfModel::MjcfModel(const XmlDocument& document) : document_(document) {
   read_meshes();
   read_pairs();
   read_names(document.root());
-  for (const XmlElement* section : document.root().children)
-    if (section->name == "worldbody") read_children({section, kWorld, main_class_, {}});
+  for (const XmlElement* section : document.root().children_called("worldbody"))
+    read_children({section, kWorld, main_class_, {}});
   for (MjcfBody& body : bodies_) {
     body.visual_collides = body.visual.empty() && !body.colliding.empty();
     if (body.visual_collides) body.visual = body.colliding;
@@ -122,10 +122,8 @@ MjcfModel::MjcfModel(const XmlDocument& document) : document_(document) {
 
 void MjcfModel::read_compiler() {
   compiler_.angle_unit = std::numbers::pi / 180;
-  for (const XmlElement* element : document_.root().children) {
-    if (element->name != "compiler") continue;
+  for (const XmlElement* element : document_.root().children_called("compiler")) {
     const auto text = [&](std::string_view key) { return element->attribute(key); };
-    if (is_true(text("strippath"))) compiler_.strips_paths = true;
     if (text("strippath")) compiler_.strips_paths = is_true(text("strippath"));
     if (text("autolimits")) compiler_.auto_limits = is_true(text("autolimits"));
     if (text("inertiafromgeom")) compiler_.inertia_from_geoms = is_true(text("inertiafromgeom"));
@@ -149,8 +147,7 @@ void MjcfModel::read_compiler() {
 
 void MjcfModel::read_defaults() {
   classes_[main_class_];
-  for (const XmlElement* section : document_.root().children) {
-    if (section->name != "default") continue;
+  for (const XmlElement* section : document_.root().children_called("default")) {
     if (const std::string* name = section->attribute("class"); name && *name != main_class_) {
       classes_[*name] = classes_[main_class_];
       main_class_ = *name;
@@ -163,8 +160,7 @@ void MjcfModel::read_class(const XmlElement& element, const std::string& name) {
   for (const XmlElement* child : element.children)
     if (child->name != "default")
       for (const auto& [key, value] : child->attributes) classes_[name][child->name].insert_or_assign(key, value);
-  for (const XmlElement* child : element.children) {
-    if (child->name != "default") continue;
+  for (const XmlElement* child : element.children_called("default")) {
     const std::string& nested = document_.required(*child, "class");
     if (classes_.contains(nested)) document_.refuse(*child, fmt::format("there is a second class '{}'", nested));
     classes_[nested] = classes_[name];
@@ -173,10 +169,8 @@ void MjcfModel::read_class(const XmlElement& element, const std::string& name) {
 }
 
 void MjcfModel::read_meshes() {
-  for (const XmlElement* section : document_.root().children) {
-    if (section->name != "asset") continue;
-    for (const XmlElement* mesh : section->children) {
-      if (mesh->name != "mesh") continue;
+  for (const XmlElement* section : document_.root().children_called("asset"))
+    for (const XmlElement* mesh : section->children_called("mesh")) {
       const std::string name = mesh_name(*mesh);
       if (name.empty()) document_.refuse(*mesh, "<mesh> has neither a name nor a file");
       const auto [other, is_new] = meshes_.emplace(name, mesh);
@@ -184,16 +178,14 @@ void MjcfModel::read_meshes() {
         document_.refuse(*mesh, fmt::format("there is a second mesh called '{}', the first is in line {}", name,
                                             other->second->line));
     }
-  }
 }
 
 /// Pairs collide whatever contype and conaffinity of their geoms say.
 void MjcfModel::read_pairs() {
-  for (const XmlElement* section : document_.root().children)
-    if (section->name == "contact")
-      for (const XmlElement* pair : section->children)
-        for (const std::string_view key : {"geom1", "geom2"})
-          if (const std::string* name = pair->attribute(key)) paired_.insert(*name);
+  for (const XmlElement* section : document_.root().children_called("contact"))
+    for (const XmlElement* pair : section->children)
+      for (const std::string_view key : {"geom1", "geom2"})
+        if (const std::string* name = pair->attribute(key)) paired_.insert(*name);
 }
 
 std::string MjcfModel::mesh_name(const XmlElement& mesh) const {
@@ -310,9 +302,7 @@ void MjcfModel::read_names(const XmlElement& parent) {
 
 std::string MjcfModel::name_of(const XmlElement& body) {
   if (const std::string* said = body.attribute("name"); said && !said->empty()) return *said;
-  std::string name = fmt::format("body_{}", body.line);
-  for (int i = 2; !body_names_.insert(name).second; ++i) name = fmt::format("body_{}_{}", body.line, i);
-  return name;
+  return unique_name(fmt::format("body_{}", body.line), body_names_);
 }
 
 void MjcfModel::note_skipped() {

@@ -8,6 +8,7 @@
 #include "robot/files/mjcf.h"
 #include "robot/files/mjcf_model.h"
 #include "robot/files/xml_lines.h"
+#include "robot/files/xml_values.h"
 #include "robot/transform.h"
 
 namespace fs = std::filesystem;
@@ -236,7 +237,7 @@ class MjcfWriter {
       if (!name) continue;
       std::vector<std::string>& stand_ins = stand_ins_[*name];
       for (std::size_t i = 0; i < count; ++i) {
-        if (added[i].name.empty()) added[i].name = unique(body.name + "_hull", geom_names_);
+        if (added[i].name.empty()) added[i].name = unique_name(body.name + "_hull", geom_names_);
         stand_ins.push_back(added[i].name);
       }
     }
@@ -295,19 +296,11 @@ class MjcfWriter {
   }
 
   static const XmlElement* last_direct_geom(const MjcfBody& body) {
-    const XmlElement* last = nullptr;
-    for (const XmlElement* child : body.element->children)
-      if (child->name == "geom") last = child;
-    return last;
+    const std::vector<const XmlElement*> geoms = body.element->children_called("geom");
+    return geoms.empty() ? nullptr : geoms.back();
   }
 
   // Names
-
-  static std::string unique(const std::string& base, std::set<std::string>& names) {
-    std::string name = base;
-    for (int i = 2; !names.insert(name).second; ++i) name = fmt::format("{}_{}", base, i);
-    return name;
-  }
 
   void collect_geom_names(const XmlElement& element) {
     const std::string* const name = element.name == "geom" ? element.attribute("name") : nullptr;
@@ -363,7 +356,7 @@ class MjcfWriter {
       throw InputError(Defect::InvalidOption,
                        fmt::format("{}: MuJoCo reads paths, but no URIs such as {}", document_.file(), hull));
     refuse_in_main("fromto");
-    std::string name = unique(body.name + "_hull", mesh_names_);
+    std::string name = unique_name(body.name + "_hull", mesh_names_);
     assets_.push_back(
         fmt::format("<mesh name=\"{}\" file=\"{}\"{}/>", xml_escaped(name), xml_escaped(hull), mesh_attributes(same)));
     return name;
@@ -435,8 +428,7 @@ class MjcfWriter {
     std::vector<NamedFile> files;
     collect_files(document_.root(), files);
     if (assets_.empty() && std::ranges::none_of(files, &NamedFile::is_moved)) return;
-    for (const XmlElement* section : document_.root().children)
-      if (section->name == "compiler") take_paths_as_they_are(*section);
+    for (const XmlElement* section : document_.root().children_called("compiler")) take_paths_as_they_are(*section);
     for (const NamedFile& file : files)
       if (file.path != *file.element->attribute(file.key))
         edits_.push_back({value_span(document_, *file.element, file.key), xml_escaped(file.path)});

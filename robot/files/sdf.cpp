@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -17,8 +16,6 @@
 
 namespace prohull::robot {
 namespace {
-
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 class SdfReader {
  public:
@@ -33,9 +30,7 @@ class SdfReader {
     add_joints();
     note_includes_beside();
     note_includes(model_);
-    file_.format = RobotFormat::Sdf;
     file_.path = document_.file();
-    file_.text = document_.text();
     return std::move(file_);
   }
 

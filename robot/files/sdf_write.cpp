@@ -8,6 +8,7 @@
 #include "robot/files/sdf_frames.h"
 #include "robot/files/sdf_model.h"
 #include "robot/files/xml_lines.h"
+#include "robot/files/xml_values.h"
 
 namespace prohull::robot {
 namespace {
@@ -104,8 +105,9 @@ class SdfWriter {
     const std::size_t refilled = std::min<std::size_t>(old.empty() ? 0 : 1, pieces.size());
     std::string added;
     std::set<std::string> names = names_in(link);
+    const std::string name = document_.required(link, "name") + "_hull";
     for (std::size_t i = refilled; i < pieces.size(); ++i)
-      added += new_collision(link, pieces[i], unique_name(link, names), indent);
+      added += new_collision(link, pieces[i], unique_name(name, names), indent);
     const std::size_t at = insertion(link, old);
     if (!added.empty()) edits_.push_back({{at, at}, added});
     if (refilled == 1) refill(*old[0], pieces[0]);
@@ -123,13 +125,6 @@ class SdfWriter {
     for (const XmlElement* child : link.children)
       if (const std::string* name = child->attribute("name")) names.insert(*name);
     return names;
-  }
-
-  std::string unique_name(const XmlElement& link, std::set<std::string>& names) const {
-    const std::string base = document_.required(link, "name") + "_hull";
-    std::string name = base;
-    for (int i = 2; !names.insert(name).second; ++i) name = fmt::format("{}_{}", base, i);
-    return name;
   }
 
   std::string new_collision(const XmlElement& link, const Piece& piece, const std::string& name,

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "prohull/error.h"
 #include "robot/files/yaml_reader.h"
+#include "robot/json.h"
 
 namespace prohull::robot {
 namespace {
@@ -94,14 +94,6 @@ Ball ball_of(const nlohmann::json& sphere, const std::filesystem::path& path) {
           finite_number(at("radius"), path)};
 }
 
-nlohmann::json parsed(const std::string& text, const std::filesystem::path& path) {
-  try {
-    return nlohmann::json::parse(text);
-  } catch (const nlohmann::json::exception& error) {
-    refuse_json(path, fmt::format("no JSON: {}", error.what()));
-  }
-}
-
 }  // namespace
 
 // YAML 1.1, which Python reads, has no numbers such as 1e-05: they need a point.
@@ -139,7 +131,7 @@ std::vector<LinkBalls> read_sphere_file(const std::string& text, const std::file
 }
 
 LinkBalls read_sphere_json(const std::string& text, const std::filesystem::path& path) {
-  const nlohmann::json file = parsed(text, path);
+  const nlohmann::json file = parsed_json(text, path.string());
   const auto spheres = file.is_object() ? file.find("spheres") : file.end();
   if (spheres == file.end() || !spheres->is_array())
     refuse_json(path,

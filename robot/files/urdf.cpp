@@ -18,7 +18,6 @@
 namespace prohull::robot {
 namespace {
 
-constexpr std::size_t kNone = std::size_t(-1);
 constexpr double kLargest = 1e100;
 
 constexpr std::array<std::pair<std::string_view, JointType>, 7> kJointTypes{{{"fixed", JointType::Fixed},

@@ -14,6 +14,7 @@ namespace prohull::robot {
 /// A part of the text of a document, in bytes.
 struct Span {
   std::size_t begin = 0, end = 0;
+  bool operator==(const Span&) const = default;
 };
 
 /// An element of an XML document, and where it stands in its text.
@@ -84,6 +85,7 @@ class XmlDocument {
 struct XmlEdit {
   Span replaced;  ///< empty: an insertion
   std::string text;
+  bool operator==(const XmlEdit&) const = default;
 };
 
 /// The text with all edits made, none of which overlap. Insertions at one place are made in their order.

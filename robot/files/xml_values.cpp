@@ -14,6 +14,12 @@ double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), s
 
 }  // namespace
 
+std::string unique_name(const std::string& name, std::set<std::string>& names) {
+  std::string unique = name;
+  for (int i = 2; !names.insert(unique).second; ++i) unique = fmt::format("{}_{}", name, i);
+  return unique;
+}
+
 Vec3 unit_vector(const XmlDocument& document, const XmlElement& element, const Vec3& v, const std::string& what) {
   const double scale = largest(v);
   if (scale == 0) document.refuse(element, what + " has length 0");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 
 #include "robot/files/xml.h"
@@ -8,6 +9,9 @@
 namespace prohull::robot {
 
 // What is checked alike in SDF and MJCF. All throw InputError(Malformed) that names `element`.
+
+/// The name, or the first of name_2, name_3 and so on that is not among `names`, which gets it.
+std::string unique_name(const std::string& name, std::set<std::string>& names);
 
 /// The vector with length 1. Throws for a vector of length 0.
 Vec3 unit_vector(const XmlDocument& document, const XmlElement& element, const Vec3& v, const std::string& what);

@@ -10,10 +10,10 @@
 
 #include "prohull/certificate.h"
 #include "prohull/detail/extension.h"
-#include "prohull/detail/finite.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 #include "robot/files/sphere_file.h"
+#include "robot/link_triangles.h"
 #include "robot/side_by_side.h"
 
 namespace prohull::robot {
@@ -38,13 +38,6 @@ const MeshFile* original_file(const Link& link, const LinkHulls& made, const Lin
   if (!mesh || !is_read_by_checkers(mesh->path) || only->origin != made.frame.in_link) return nullptr;
   const Vec3& scale = mesh->scale;
   return scale.x > 0 && scale.x == scale.y && scale.y == scale.z ? mesh : nullptr;
-}
-
-TriangleMesh finite_triangles(const TriangleMesh& mesh) {
-  TriangleMesh finite = with_finite_faces(mesh);
-  for (Vec3& p : finite.positions)
-    if (!is_finite(p)) p = {};
-  return finite;
 }
 
 Certificate certificate_of(const LinkHull& hull, const CertifiedOriginal& original, const Budget& budget) {

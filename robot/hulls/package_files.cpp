@@ -44,10 +44,6 @@ bool is_description(const fs::path& file) { return is_robot_file(file) && lower_
 
 bool can_be_read(const fs::path& file) { return std::ifstream(file, std::ios::binary).is_open(); }
 
-bool is_same(const XmlEdit& a, const XmlEdit& b) {
-  return a.replaced.begin == b.replaced.begin && a.replaced.end == b.replaced.end && a.text == b.text;
-}
-
 /// Up to `count` bytes.
 void copy_bytes(std::istream& in, std::ostream& out, std::size_t count) {
   std::array<char, 1 << 16> bytes;
@@ -106,7 +102,7 @@ fs::path PackageFiles::placed(Content content) {
   const std::string suffix = plain_suffix(content.source);
   for (std::size_t i = 0; i < contents_.size(); ++i)
     if (files_[i].path.extension() == suffix && have_same_bytes(contents_[i].source, content.source) &&
-        std::ranges::equal(contents_[i].edits, content.edits, is_same))
+        contents_[i].edits == content.edits)
       return files_[i].path;
   const bool is_beside_meshes =
       is_shown(content.source) || goes_with("a.obj", content.source) || goes_with("a.mtl", content.source);

@@ -11,6 +11,13 @@ namespace prohull::robot {
 
 namespace {
 
+void append_primitives(const Robot& robot, const LinkHulls& link, Geometry from, Curved curved, TriangleMesh& mesh) {
+  for (const std::size_t i : link.primitives) {
+    const Shape& shape = shapes(robot.links[link.link], from)[i];
+    append(mesh, placed(shape.origin, form_mesh(shape.form, curved)));
+  }
+}
+
 /// The hull with the primitives that are kept; empty if it is not certified.
 TriangleMesh hull_in_link(const Robot& robot, const LinkHulls& link, Geometry from, std::size_t set,
                           Curved curved = Curved::Around) {
@@ -21,10 +28,7 @@ TriangleMesh hull_in_link(const Robot& robot, const LinkHulls& link, Geometry fr
     hull = placed(link.frame.in_link, mesh_of({}, link.hulls[set].balls, curved));
   else if (is_hulled)
     hull = placed(link.frame.in_link, link.hulls[set].mesh);
-  for (const std::size_t i : link.primitives) {
-    const Shape& shape = shapes(robot.links[link.link], from)[i];
-    append(hull, placed(shape.origin, form_mesh(shape.form, curved)));
-  }
+  append_primitives(robot, link, from, curved, hull);
   return hull;
 }
 
@@ -57,10 +61,7 @@ Bodies bodies_of(const Robot& robot, std::span<const LinkHulls> links, Geometry 
   for (const LinkHulls& link : links) {
     TriangleMesh visual;
     if (link.status == LinkStatus::Hulled) visual = placed(link.frame.in_link, link.triangles);
-    for (const std::size_t i : link.primitives) {
-      const Shape& shape = shapes(robot.links[link.link], from)[i];
-      append(visual, placed(shape.origin, form_mesh(shape.form, Curved::Around)));
-    }
+    append_primitives(robot, link, from, Curved::Around, visual);
     bodies.convex.push_back(convex_hull(visual));
     bodies.visual.push_back(std::move(visual));
     bodies.hull.push_back(hull_in_link(robot, link, from, set));

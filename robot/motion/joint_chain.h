@@ -78,7 +78,6 @@ class JointChain {
     std::size_t freedom = 0;     // kNone if nothing moves it
     std::vector<Mimic> follows;  // from the freedom to this joint
   };
-  static constexpr auto kNone = static_cast<std::size_t>(-1);
 
   /// The axis of a joint, in the frame of a, with all freedoms in the middle.
   struct Axis {

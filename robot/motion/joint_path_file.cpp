@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "prohull/error.h"
+#include "robot/json.h"
 #include "robot/motion/joint_path.h"
 
 namespace prohull::robot {
@@ -169,7 +169,7 @@ class JsonReader {
   explicit JsonReader(const std::string& file) { rows_.file = file; }
 
   PathRows read(std::string_view text) {
-    Json file = parsed(text);
+    Json file = parsed_json(text, rows_.file);
     for (const char* const name : {"trajectory", "joint_trajectory"})
       if (file.is_object() && file.contains(name)) {
         refuse_others(file);
@@ -201,14 +201,6 @@ class JsonReader {
     const Json& others = file[kOthers];
     if (others.contains("points") && !others["points"].empty())
       refuse(fmt::format("{}: planar and floating joints stay at rest here, and it moves them", kOthers));
-  }
-
-  Json parsed(std::string_view text) const {
-    try {
-      return Json::parse(text);
-    } catch (const Json::exception& error) {
-      refuse(fmt::format("no JSON: {}", error.what()));
-    }
   }
 
   const Json& member(const Json& object, const std::string& name) const {

@@ -99,7 +99,6 @@ class Writer {
   MotionCertificate finished(std::size_t pairs) && { return {std::move(text_) + "end\n", pairs}; }
 
  private:
-  static constexpr auto kNone = static_cast<std::size_t>(-1);
   static constexpr double kEver = std::numeric_limits<double>::infinity();
 
   void add(const Joint& joint, std::size_t parent) {

@@ -167,10 +167,8 @@ class Workspace {
     constexpr std::size_t kHullFaces = 1000;
     if (zone.pieces.size() <= options_.max_pieces) return zone;
     const TriangleMesh all = together(zone.pieces);
-    EnclosingOptions how;
-    how.hull.threads = options_.threads;
-    how.progress = options_.progress;
-    const EnclosingHull hull = enclosing_hull(all, kHullFaces, how);
+    const EnclosingHull hull =
+        enclosing_hull(all, kHullFaces, {.hull = {.threads = options_.threads}, .progress = options_.progress});
     const ConvexCover cover = covered(hull.mesh);
     if (!hull.certified || !hull.verdict.original_closed || !cover.verdict.original_closed ||
         cover.verdict.encloses_solid != Answer::Yes)

@@ -16,10 +16,10 @@
 #include "robot/files/packages.h"
 #include "robot/files/xml.h"
 #include "robot/hulls/cache.h"
+#include "robot/json.h"
 #include "robot/motion/joint_limits.h"
 #include "robot/motion/kinematics.h"
 #include "robot/report/report_facts.h"
-#include "robot/report/verdict_facts.h"
 
 namespace prohull::robot {
 namespace {

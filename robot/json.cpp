@@ -1,9 +1,12 @@
-#include "robot/report/verdict_facts.h"
+#include "robot/json.h"
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <string>
 
 #include "prohull/detail/verdict_parts.h"
+#include "prohull/error.h"
 
 namespace prohull {
 namespace {
@@ -20,6 +23,14 @@ nlohmann::json json_of(const std::optional<Value>& value) {
 }
 
 }  // namespace
+
+nlohmann::json parsed_json(std::string_view text, const std::string& file) {
+  try {
+    return nlohmann::json::parse(text);
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(Defect::Malformed, fmt::format("{}: no JSON: {}", file, error.what()));
+  }
+}
 
 nlohmann::json facts(const Verdict& verdict) {
   nlohmann::json json;
