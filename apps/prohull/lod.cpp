@@ -50,16 +50,6 @@ Verification verified(const TriangleMesh& written, const TriangleMesh& finest, H
   return verify_hull(written, finest, side, {.progress = std::ref(line)});
 }
 
-std::string certificate_of_level(const LodOutcome& outcome) {
-  if (!outcome.found) return "yes, the file as written is the finest level";
-  const Verification& found = *outcome.found;
-  const std::string what = claim(found, "the file as written", "the finest level");
-  if (found.certified) return "yes, " + what;
-  if (found.faces_outside == 0) return fmt::format("no, {}: {}", what, found.why_not);
-  return fmt::format("no, {}, of which {} {} not covered, at least in part: {}", what,
-                     counted(found.faces_outside, "face"), found.faces_outside == 1 ? "is" : "are", found.why_not);
-}
-
 nlohmann::json report_of(const LodOptions& options, const ProgressiveHull& hull, const LodOutcome& outcome) {
   nlohmann::json report = {
       {"path", options.out.string()},
@@ -78,12 +68,9 @@ nlohmann::json report_of(const LodOptions& options, const ProgressiveHull& hull,
 }
 
 void print_summary(const LodOptions& options, const ProgressiveHull& hull, const LodOutcome& outcome) {
-  const std::size_t faces = outcome.level.face_count();
-  say("{}: {} of {}{}\n", output_name(options.out), counted(faces, "face"), grouped(hull.original_face_count()),
-      options.faces != 0 && faces > options.faces ? ", which is the coarsest level of the file" : "");
-  if (const std::string finest = described_finest_level(hull.finest_level()); !finest.empty())
-    say("  the finest level of the file is {}, not the input itself\n", finest);
-  say("  certified: {}\n", certificate_of_level(outcome));
+  const auto lines =
+      lines_of_level(output_name(options.out), {hull, options.faces, outcome.level.face_count(), outcome.found});
+  for (const std::string& line : lines) say("{}{}\n", &line == &lines.front() ? "" : "  ", line);
   say_more("  read {:.2f} s, extracted {:.2f} s, verified in {:.2f} s\n", outcome.read_seconds, outcome.extract_seconds,
            outcome.verify_seconds);
 }

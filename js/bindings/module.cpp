@@ -18,6 +18,7 @@
 #include "prohull/distance.h"
 #include "prohull/enclosing_hull.h"
 #include "prohull/hull_file.h"
+#include "prohull/length.h"
 #include "prohull/mesh_io.h"
 #include "prohull/mesh_report.h"
 #include "prohull/progressive_hull.h"
@@ -89,20 +90,37 @@ val build(const val& mesh, const val& targets, const val& given, const val& prog
   return hulls;
 }
 
-/// As `prohull lod` extracts it for a file.
-val level(const val& levels, double faces, const val& given) {
+/// As `prohull lod` extracts it for a file, and what that prints of it, if there is a name for the file.
+val level(const val& levels, double faces, const val& given, const val& progress) {
   bool float32 = false;
-  const Given named(given);
-  named.flag("float32_coordinates", float32);
-  named.refuse_others();
+  std::string file;
+  const auto options = options_of(given, progress, [&](const Given& named) {
+    named.flag("float32_coordinates", float32);
+    named.text("summary_of", file);
+    return VerificationOptions{};
+  });
   if (!(faces >= 0)) throw InputError(Defect::InvalidOption, "faces: expected a number, at least 0");
   const ProgressiveHull hull = levels_of(levels);
-  if (faces < static_cast<double>(hull.base_face_count()))
+  if (faces != 0 && faces < static_cast<double>(hull.base_face_count()))
     throw InputError(Defect::InvalidOption,
                      fmt::format("faces={:.17g}: the coarsest level has {} faces", faces, hull.base_face_count()));
-  TriangleMesh found = hull.level(static_cast<std::size_t>(std::min<double>(faces, 0xffffffff)));
+  const auto target = static_cast<std::size_t>(std::min<double>(faces, 0xffffffff));
+  TriangleMesh found = hull.level(target);
   if (float32) found = with_float32_coordinates(found, hull.side()).mesh;
-  return object_of_mesh(found);
+  val object = object_of_mesh(found);
+  if (file.empty()) return object;
+  const TriangleMesh written = read_mesh(std::string_view(mesh_content(file, found)), file), finest = hull.original();
+  std::optional<Verification> verdict;
+  if (!has_triangles_of(written, finest)) verdict = verify_hull(written, finest, hull.side(), options);
+  object.set("certified", !verdict || verdict->certified);
+  object.set("summary", strings_of(lines_of_level(file, {hull, target, found.face_count(), verdict})));
+  return object;
+}
+
+/// Of the bytes of a .phull file.
+val read_levels(const val& bytes, const std::string& name) {
+  const auto content = emscripten::convertJSArrayToNumberVector<unsigned char>(bytes);
+  return object_of_levels(load_hull(std::string_view(reinterpret_cast<const char*>(content.data()), content.size()), name));
 }
 
 /// The bytes of a .phull file.
@@ -296,10 +314,14 @@ val inspect_mesh(const val& mesh) {
   return object;
 }
 
-val read(const val& bytes, const std::string& name) {
+val read(const val& bytes, const std::string& name, const val& given) {
   const std::vector<unsigned char> content = emscripten::convertJSArrayToNumberVector<unsigned char>(bytes);
   const std::string_view text(reinterpret_cast<const char*>(content.data()), content.size());
-  return object_of_mesh(read_mesh(text, name, {.non_finite = NonFinite::Keep}));
+  ReadOptions options{.non_finite = NonFinite::Keep};
+  const Given named(given);
+  named.choice("unit", length_units(), options.scale);
+  named.refuse_others();
+  return object_of_mesh(read_mesh(text, name, options));
 }
 
 val write(const val& mesh, const std::string& name) {
@@ -324,6 +346,7 @@ EMSCRIPTEN_BINDINGS(prohull) {
   function("repair", &Guarded<repair>::call);
   function("inspect", &Guarded<inspect_mesh>::call);
   function("read", &Guarded<read>::call);
+  function("readLevels", &Guarded<read_levels>::call);
   function("writeLevels", &Guarded<write_levels>::call);
   function("write", &Guarded<write>::call);
   function("memory", &memory);

@@ -50,18 +50,22 @@ view::Shown shown_of(const val& hull) {
   return {name, mesh_of(hull, name)};
 }
 
-/// What view.js of the page of `prohull view` shows: of a hull, if there is one, and of the mesh that it is a hull of.
+/// What view.js of the page of `prohull view` shows: a hull and the mesh that it is a hull of, or one of them.
 val scene(const val& hull, const val& original, const val& given, const val& progress) {
   const auto options = options_of(given, progress, [](const Given& named) {
     view::PageOptions read{.version = PROHULL_VERSION, .measures_levels = false};
     named.choice("side", hull_side_names(), read.side);
     return read;
   });
-  const std::string name = original["name"].as<std::string>();
-  TriangleMesh mesh = mesh_of(original, name);
-  const bool is_alone = hull.isUndefined() || hull.isNull();
-  const view::Scene made = is_alone ? view::scene_of({{name, std::move(mesh)}}, {}, options)
-                                    : view::scene_of({shown_of(hull)}, view::Original{name, std::move(mesh)}, options);
+  std::vector<view::Shown> shown;
+  std::optional<view::Original> other;
+  if (!original.isNull()) other = {original["name"].as<std::string>(), mesh_of(original, "original")};
+  if (!hull.isNull()) shown.push_back(shown_of(hull));
+  if (shown.empty() && other) {
+    shown.push_back({other->name, std::move(other->mesh)});
+    other.reset();
+  }
+  const view::Scene made = view::scene_of(shown, other, options);
   val object = val::object();
   const std::string& bytes = made.blocks.bytes();
   object.set("facts", made.facts_as_text());
@@ -93,23 +97,24 @@ val spheres_json(const val& balls, const std::string& link) {
   return object_of_file(robot::sphere_json({link, all}));
 }
 
-CertifiedOriginal original_of(const val& bytes, const std::string& name, bool is_stl) {
+/// `metres`: of the unit of the file, of which the mesh is converted to metres; else 1.
+CertifiedOriginal original_of(const val& bytes, const std::string& name, bool is_stl, double metres) {
   const auto content = emscripten::convertJSArrayToNumberVector<unsigned char>(bytes);
   const std::string_view text(reinterpret_cast<const char*>(content.data()), content.size());
-  CertifiedOriginal original;
-  original.mesh =
-      read_mesh(text, name, {.non_finite = NonFinite::Keep, .divided = is_stl ? nullptr : &original.divided});
+  CertifiedOriginal original{read_mesh(text, name, {.non_finite = NonFinite::Keep, .scale = metres}), metres};
+  if (!is_stl) read_mesh(text, name, {.non_finite = NonFinite::Keep, .divided = &original.divided});
   return original;
 }
 
 /// As `prohull build --certificate` writes it, of the bytes of the original's file.
 val certificate(const val& hull, const val& bytes, const std::string& name, const val& given) {
-  double gap = 0, distance = std::numeric_limits<double>::infinity(), asked = distance, proven_gap = 0;
+  double gap = 0, distance = std::numeric_limits<double>::infinity(), asked = distance, proven_gap = 0, metres = 1;
   bool is_stl = false;
   HullClaims claims;
   const Given named(given);
   named.choice("side", hull_side_names(), claims.side);
   named.flag("is_stl", is_stl);
+  named.choice("unit", length_units(), metres);
   named.not_negative("gap", gap);
   named.not_negative("proven_gap", proven_gap);
   named.not_negative("max_distance", asked);
@@ -117,7 +122,7 @@ val certificate(const val& hull, const val& bytes, const std::string& name, cons
   named.refuse_others();
   claims.gap = claimed_gap(gap, proven_gap);
   claims.distance = claimed_distance(asked, distance);
-  const Certificate made = hull_certificate(mesh_of(hull, "hull"), original_of(bytes, name, is_stl), claims);
+  const Certificate made = hull_certificate(mesh_of(hull, "hull"), original_of(bytes, name, is_stl, metres), claims);
   return object_of_file(made.bytes);
 }
 
@@ -128,12 +133,18 @@ val sample(const std::string& name, double faces) {
   return object_of_mesh(make_sample(name, static_cast<std::size_t>(faces)));
 }
 
-/// Of "0.5" or "1%", in the unit of the mesh, as the options of the command line read it.
-val length(const std::string& text, const val& mesh) {
+/// Of "0.5" or "1%", in the unit of the mesh, as the options of the command line read it; where that is the metre, of
+/// "5mm", too.
+val length(const std::string& text, const val& mesh, const val& given) {
+  bool in_metres = false;
+  const Given named(given);
+  named.flag("in_metres", in_metres);
+  named.refuse_others();
   const std::optional<Length> found = length_of(text);
-  if (!found || found->needs_metres())
+  if (!found || (found->needs_metres() && !in_metres))
     throw InputError(Defect::InvalidOption,
-                     text + ": expected a number in the unit of the mesh, or a share of its diagonal, as 0.5%");
+                     text + ": expected a number in the unit of the mesh, or a share of its diagonal, as 0.5%" +
+                         (in_metres ? ", or a length with its unit, as 5mm" : ""));
   val object = val::object();
   object.set("length", found->of(finite_bounding_box(mesh_of(mesh, "mesh")).diagonal()));
   return object;

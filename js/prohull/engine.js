@@ -115,7 +115,7 @@ export async function loadEngine(wasm) {
       const hulls = call('build', meshOf(mesh, 'mesh'), targets, optionsOf(options), progress);
       return several ? hulls : hulls[0];
     },
-    level: (levels, faces, options = {}) => call('level', levelsOf(levels), Number(faces), optionsOf(options)),
+    level: (levels, faces = 0, options = {}, progress) => call('level', levelsOf(levels), Number(faces), optionsOf(options), progress),
     verify: (hull, original, options = {}, progress) =>
       call('verify', meshOf(hull, 'hull'), meshOf(original, 'original'), optionsOf(options), progress),
     distance: (from, to, options = {}, progress) =>
@@ -127,20 +127,23 @@ export async function loadEngine(wasm) {
       refuseOptions(options);
       return call('inspect', meshOf(mesh, 'mesh'));
     },
-    async read(bytes, name, options = {}) {
+    read: async (bytes, name, options = {}) => call('read', await contentOf(bytes, textOf(name, 'name')), name, optionsOf(options)),
+    readLevels(bytes, name, options = {}) {
       refuseOptions(options);
-      return call('read', await contentOf(bytes, textOf(name, 'name')), name);
+      return call('readLevels', bytesOf(bytes), textOf(name, 'name'));
     },
     sample: (name, faces = 20000) => call('sample', textOf(name, 'name'), Number(faces)),
-    length: (text, mesh) => call('length', String(text), meshOf(mesh, 'mesh')).length,
+    length: (text, mesh, options = {}) => call('length', String(text), meshOf(mesh, 'mesh'), optionsOf(options)).length,
     async certificate(hull, original, name, options = {}) {
       if (!CHECKED.test(textOf(name, 'name')))
         throw new InputError(`${name}: prohull_check reads .stl, .obj, .ply and .off files only; make the hull of one of these`);
       const content = await contentOf(original, name);
       return call('certificate', meshOf(hull, 'hull'), content, name, optionsOf(options)).bytes;
     },
-    scene: (hull, original, options = {}, progress) =>
-      call('scene', hull === undefined || hull === null ? null : shownOf(hull), originalOf(original), optionsOf(options), progress),
+    scene(hull, original, options = {}, progress) {
+      const shown = hull === undefined || hull === null ? null : shownOf(hull);
+      return call('scene', shown, shown && original === null ? null : originalOf(original), optionsOf(options), progress);
+    },
     writeLevels: (levels) => call('writeLevels', levelsOf(levels)).bytes,
     write: (mesh, name) => call('write', meshOf(mesh, 'mesh'), textOf(name, 'name')).bytes,
     writeSeveral(meshes, name) {

@@ -18,6 +18,7 @@ export interface Running {
 
 export type Side = 'outer' | 'inner';
 export type OpenShells = 'close' | 'keep';
+export type Unit = 'mm' | 'cm' | 'm' | 'in' | 'ft';
 
 /** As the options of `prohull build` and of Python's prohull.build; lengths are in the unit of the mesh. */
 export interface BuildOptions extends Running {
@@ -167,8 +168,11 @@ export class InputError extends Error {}
 /** Builds a certified hull of any triangles, of at most so many faces where that is possible. */
 export function build(mesh: MeshLike, targetFaces?: number, options?: BuildOptions): Promise<Hull>;
 export function build(mesh: MeshLike, targetFaces: number[] | Uint32Array, options?: BuildOptions): Promise<Hull[]>;
-/** The finest level of at most so many faces, which are no fewer than those of the hull; with coordinates for STL and GLB files if that is asked for. */
-export function level(levels: Levels, faces: number, options?: Running & {float32Coordinates?: boolean}): Promise<Mesh>;
+/** The finest level of at most so many faces, which are no fewer than those of the coarsest; without a number, the coarsest. `float32Coordinates`:
+ * with coordinates for STL and GLB files. `summaryOf`: the name of the file that it is for; the result then has the verdict against the finest
+ * level, and what `prohull lod` prints. */
+export function level(levels: Levels, faces?: number, options?: Running & {float32Coordinates?: boolean; summaryOf?: string}):
+  Promise<Mesh & {certified?: boolean; summary?: string[]}>;
 /** Decides exactly whether a hull encloses the original (side 'inner': whether the original encloses it). */
 export function verify(
   hull: MeshLike, original: MeshLike,
@@ -195,10 +199,12 @@ export function repair(
 /** What a mesh is, and what is wrong with it. */
 export function inspect(mesh: MeshLike, running?: Running): Promise<Inspection>;
 /** Reads STL, OBJ, PLY, OFF or GLB, plain or gzipped. Such a suffix of the name tells the format; of any other name, the
- * content does. */
-export function read(bytes: ArrayBuffer | Uint8Array, name: string, running?: Running): Promise<Mesh>;
+ * content does. `unit`: that of the file, whose lengths are then converted to metres. */
+export function read(bytes: ArrayBuffer | Uint8Array, name: string, options?: Running & {unit?: Unit}): Promise<Mesh>;
 /** The bytes of a file of that name: .stl, .obj, .ply, .off or .glb. */
 export function write(mesh: MeshLike, name: string): Promise<Uint8Array>;
+/** Reads the bytes of a .phull file. It does not hold the original, only the finest level, and what that is of the original. */
+export function readLevels(bytes: ArrayBuffer | Uint8Array, name: string, running?: Running): Promise<Levels>;
 /** The bytes of a .phull file, which `prohull info`, `lod`, `verify` and `query` read. They are not compressed. */
 export function writeLevels(levels: Levels): Promise<Uint8Array>;
 /** The bytes of an .obj or .glb file with an object of its own for each mesh, as `prohull convex` writes its pieces. */
@@ -207,18 +213,18 @@ export function writeSeveral(meshes: (MeshLike & {name: string})[], name: string
 export function spheresJson(balls: Float64Array | number[], link: string): Promise<Uint8Array>;
 /** A bundled sample, as `prohull sample` makes it. */
 export function sample(name: string, faces?: number): Promise<Mesh>;
-/** Of "0.5" or "1%" of the diagonal, in the unit of the mesh. */
-export function length(text: string, mesh: MeshLike): Promise<number>;
+/** Of "0.5" or "1%" of the diagonal, in the unit of the mesh; and of "5mm", if the mesh is in metres. */
+export function length(text: string, mesh: MeshLike, options?: Running & {inMetres?: boolean}): Promise<number>;
 /** A certificate, as `prohull build --certificate` writes it. `original` has the bytes of the original's file, STL, OBJ, PLY or OFF, plain or gzipped; gap and
-    maxDistance are what was asked for, provenGap and distance what the hull keeps. */
+    maxDistance are what was asked for, provenGap and distance what the hull keeps. `unit`: with which the original was read. */
 export function certificate(
   hull: MeshLike, original: ArrayBuffer | Uint8Array, name: string,
-  options?: Running & {side?: Side; isStl?: boolean; gap?: number; provenGap?: number; maxDistance?: number;
+  options?: Running & {side?: Side; isStl?: boolean; unit?: Unit; gap?: number; provenGap?: number; maxDistance?: number;
     distance?: number}): Promise<Uint8Array>;
 /** What the page of `prohull view` draws (view/scene.h); it may change with every version. */
 export function scene(
   hull: (MeshLike | {levels: Levels} | {pieces: MeshLike[]} | {balls: Float64Array | number[]}) & {name: string} | null,
-  original: MeshLike & {name: string},
+  original: MeshLike & {name: string} | null,
   options?: Running & {side?: Side}): Promise<{facts: string; blocks: Uint8Array}>;
 /** What the page for teaching draws (js/bindings/figures.cpp); it may change with every version. */
 export function figure(name: string, args: unknown[]): Promise<any>;

@@ -1,7 +1,7 @@
 #pragma once
 
-// What io/hull_file.cpp calls of zstd: frames are written with their checksum (XXH64), but not compressed. None is read
-// here, so that what reads them has no definition: nothing calls it.
+// What io/hull_file.cpp calls of zstd: frames are written with their checksum (XXH64), but not compressed, and read as
+// any program compresses them (unzstd.cpp).
 
 #include <bit>
 #include <cstddef>

@@ -1,10 +1,11 @@
 // What the package promises to programs that call it.
 import assert from 'node:assert/strict';
 import test from 'node:test';
+import {execFileSync} from 'node:child_process';
 import {gzipSync} from 'node:zlib';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
-import {cube, engine, hasProgram, prohull, run, scratch} from './package.mjs';
+import {cube, engine, hasProgram, prohull, run, sample, scratch} from './package.mjs';
 
 const refused = (call, says) => assert.rejects(call, (error) => {
   assert.equal(error.name, 'InputError');
@@ -77,6 +78,38 @@ test('the program reads the file of all levels, of one block and of several', {s
     writeFileSync(all, damaged);
     assert.throws(() => run('verify', all, input), /damaged/, 'by the checksum');
   }
+});
+
+test('the file of all levels that the program compresses is read, and none that is damaged', {skip: !hasProgram && 'there is no program to compare with'}, async () => {
+  for (const [name, side] of [['knot', 'outer'], ['box', 'outer'], ['bracket', 'inner']]) {
+    const [all, hull, level] = ['all.phull', 'all.ply', 'level.stl'].map((name) => join(scratch, name));
+    run('build', sample(name, 20000), '-o', hull, '--faces', '300', '--side', side, '--hierarchy', all);
+    const bytes = readFileSync(all), levels = await prohull.readLevels(bytes, 'all.phull');
+    assert.equal(levels.side, side);
+    const coarsest = await prohull.level(levels);
+    assert.deepEqual(Buffer.from(await prohull.write(coarsest, 'all.ply')), readFileSync(hull));
+    const {summary, certified, ...finer} = await prohull.level(levels, 900, {float32Coordinates: true, summaryOf: level});
+    const printed = execFileSync(process.env.PROHULL, ['lod', all, '-o', level, '--faces', '900'], {encoding: 'utf8'});
+    assert.deepEqual(Buffer.from(await prohull.write(finer, level)), readFileSync(level));
+    assert.deepEqual(summary, printed.trim().split('\n').map((line) => line.trim()));
+    assert.equal(certified, summary.at(-1).startsWith('certified: yes'));
+    for (let at = 12; at < bytes.length; at += 1 + bytes.length / 60 | 0) {
+      const damaged = Uint8Array.from(bytes);
+      damaged[at] ^= 1 << at % 8;
+      assert.throws(() => engine.readLevels(damaged, 'b.phull'), /^InputError: b\.phull: .*(damaged|truncated|too many)/);
+      assert.throws(() => engine.readLevels(bytes.subarray(0, at), 'b.phull'), /^InputError: b\.phull: it is truncated/);
+    }
+  }
+  await refused(prohull.readLevels(new Uint8Array([31, 139, 8]), 'a.phull'), /a\.phull: it is gzipped.*gunzip/);
+  await refused(prohull.readLevels(await prohull.write(cube, 'a.stl'), 'a.phull'), /this is not a \.phull file/);
+});
+
+test('a file with a unit is read in metres, and lengths may then have units', async () => {
+  const bytes = await prohull.write(cube, 'a.obj'), inches = await prohull.read(bytes, 'a.obj', {unit: 'in'});
+  assert.equal(Math.max(...inches.vertices), 0.0254);
+  assert.equal(await prohull.length('5mm', inches, {inMetres: true}), 0.005);
+  await refused(prohull.length('5mm', inches), /5mm: expected a number in the unit of the mesh/);
+  await refused(prohull.read(bytes, 'a.obj', {unit: 'mile'}), /unit=mile: expected one of mm, cm, m, in, ft/);
 });
 
 test('distances from an open mesh are told from its triangles, and from its solid with the openings closed', async () => {

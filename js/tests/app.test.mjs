@@ -122,6 +122,43 @@ test('the slider shows a level, which is saved, and the level box is that of the
   await closed(page);
 });
 
+test('a dropped file of levels shows them, and tells of each what the command tells', {skip}, async () => {
+  const page = await opened({fragment: '#make=spheres'}), part = sampleFile('bracket', 3000, 'bracket.stl'), all = join(scratch, 'core.phull');
+  run('build', part, '-o', join(scratch, 'core.ply'), '--faces', '200', '--side', 'inner', '--hierarchy', all);
+  const told = async () => {
+    const lines = await page.locator('#summary li').allTextContents();
+    const made = await saved(page, 'save'), own = execFileSync('sh', ['-c', (await text(page, 'command')).replace('prohull', '"$PROHULL"')], {cwd: scratch, encoding: 'utf8'});
+    assert.equal(hash(made.bytes), hash(readFileSync(made.path)));
+    assert.deepEqual(lines, own.trim().split('\n').map((line) => line.trim()));
+    return lines;
+  };
+  await dropped(page, all);
+  assert.match(await text(page, 'problem'), /cannot be moved outwards to float32 coordinates; write a \.ply, \.obj or \.off file/);
+  await page.selectOption('#want-to', 'ply');
+  await settled(page);
+  assert.equal(await text(page, 'problem'), '');
+  assert.match(await text(page, 'found'), /^Levels of an inner hull, up to 2,976 faces\. The part that they were made of is not in the file: /);
+  assert.match(await text(page, 'content'), /Encloses.*Every level: 1,\d{3} splits replayed/);
+  assert.ok(await page.isVisible('#want-to') && await page.isHidden('#want-faces') && await page.isHidden('#save-levels') && await page.isHidden('#save-certificate'));
+  assert.match((await told())[0], /^core_level\.ply: 200 faces of 2,976$/);
+  assert.equal(await text(page, 'command'), 'prohull lod core.phull -o core_level.ply');
+  await page.fill('#wanted', '701');
+  await page.dispatchEvent('#wanted', 'change');
+  await page.waitForFunction(() => document.getElementById('summary').textContent.includes('certified'));
+  assert.match((await told())[0], /^core_level\.ply: 700 faces of 2,976$/);
+  assert.equal(await text(page, 'command'), 'prohull lod core.phull -o core_level.ply --faces 700');
+  await page.waitForFunction(() => document.getElementById('distance').textContent.startsWith('≤'));
+  await page.selectOption('#want-to', 'obj');
+  await settled(page);
+  assert.match(await text(page, 'save'), /^Save core_level\.obj/);
+  writeFileSync(all, readFileSync(all).subarray(0, 999));
+  await dropped(page, all);
+  assert.match(await text(page, 'problem'), /^core\.phull: it is truncated after 999 bytes/);
+  await dropped(page, part);
+  assert.ok(await page.isVisible('#want-count'), 'the form is as it was');
+  await closed(page);
+});
+
 test('what the command refuses is refused, and names of parts are quoted', {skip}, async () => {
   const page = await opened(), part = join(scratch, '-a {faces}.stl');
   copyFileSync(sampleFile('bracket', 3000, 'bracket.stl'), part);
@@ -168,6 +205,48 @@ test('options make what the command line makes of them', {skip}, async () => {
     else assert.equal(hash(made.bytes), hash(await commanded(page, made)), `${id}=${value}`);
   }
   assert.match(await page.evaluate(() => location.hash), /make=spheres.*distance=1%25.*gap=0\.05.*sample=bracket/);
+  await closed(page);
+});
+
+test('the unit of the file, open shells and cavities are as the command has them, and stand in the address', {skip}, async () => {
+  const page = await opened({fragment: '#shells=keep&unit=mm&cavities=1&faces=60&gap=5mm&to=obj'}), part = join(scratch, 'case.off');
+  const cube = (least, most) => [...Array(8).keys()].map((i) => [i & 1, i >> 1 & 1, i >> 2].map((bit) => bit ? most : least).join(' ')).join('\n');
+  const sides = [[0, 2, 3], [0, 3, 1], [0, 1, 5], [0, 5, 4], [1, 3, 7], [1, 7, 5], [3, 2, 6], [3, 6, 7], [2, 0, 4], [2, 4, 6], [4, 5, 7], [4, 7, 6]];
+  const faces = (of, first) => of.map((side) => `3 ${side.map((v) => v + first).join(' ')}\n`).join('');
+  writeFileSync(part, `OFF\n16 22 0\n${cube(0, 100)}\n${cube(40, 60)}\n${faces(sides.slice(0, 10), 0)}${faces(sides, 8)}`);
+  await dropped(page, part);
+  const made = async () => {
+    assert.equal(await text(page, 'problem'), '');
+    const hull = await saved(page, 'save'), own = hash(hull.bytes);
+    assert.equal(own, hash(await commanded(page, hull)));
+    return own;
+  };
+  const hulls = new Set([await made()]);
+  assert.match(await text(page, 'found'), /diagonal 0\.173/);
+  assert.equal(await text(page, 'command'), 'prohull build case.off -o case_hull.obj --unit mm --faces 60 --gap 5mm --open-shells keep --keep-cavities');
+  const certificate = await saved(page, 'save-certificate');
+  run('build', part, '-o', join(scratch, 'same.obj'), '--unit', 'mm', '--faces', '60', '--gap', '5mm', '--open-shells', 'keep', '--keep-cavities', '--certificate', join(scratch, 'same.phcert'));
+  assert.equal(hash(certificate.bytes), hash(readFileSync(join(scratch, 'same.phcert'))));
+  await page.selectOption('#want-shells', 'close');
+  await settled(page);
+  hulls.add(await made());
+  assert.match(await page.evaluate(() => location.hash), /gap=5mm&unit=mm&cavities=1/);
+  await page.fill('#want-gap', '');
+  await page.press('#want-gap', 'Enter');
+  await settled(page);
+  hulls.add(await made());
+  await page.setChecked('#want-cavities', false);
+  await settled(page);
+  hulls.add(await made());
+  await page.selectOption('#want-unit', '');
+  await settled(page);
+  hulls.add(await made());
+  assert.match(await text(page, 'found'), /diagonal 173/);
+  await page.fill('#want-gap', '5mm');
+  await page.press('#want-gap', 'Enter');
+  await settled(page);
+  assert.match(await text(page, 'problem'), /^5mm: expected a number in the unit of the mesh/);
+  assert.equal(hulls.size, 5, 'each option changes the hull');
   await closed(page);
 });
 

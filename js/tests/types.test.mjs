@@ -8,7 +8,7 @@ import {folder, scratch} from './package.mjs';
 
 const kCompiler = 'typescript@5.9.2';
 const kProgram = `
-import {build, certificate, InputError, length, level, read, sample, scene, spheresJson, write, writeLevels, writeSeveral, type Hull, type Levels} from 'prohull';
+import {build, certificate, InputError, length, level, read, readLevels, sample, scene, spheresJson, write, writeLevels, writeSeveral, type Hull, type Levels} from 'prohull';
 import {loadEngine, type Engine} from 'prohull/engine';
 const stop = new AbortController();
 const part = await read(new Uint8Array(84), 'part.stl', {signal: stop.signal});
@@ -16,11 +16,13 @@ const hull: Hull = await build(part, 500, {tight: true, maxDistance: await lengt
   signal: stop.signal, progress: (stage, fraction) => console.log(stage.length + fraction)});
 const lines: string[] = hull.summary ?? [], hulls: Hull[] = await build(await sample('knot'), [500, 50]);
 const levels: Levels | undefined = hull.levels;
-if (levels) await writeLevels(levels);
+if (levels) await level(await readLevels(await writeLevels(levels), 'a.phull', {signal: stop.signal}));
+const told: string[] | undefined = levels && (await level(levels, 500, {summaryOf: 'a.stl'})).summary;
+await length('5mm', await read(new Uint8Array(84), 'part.stl', {unit: 'mm'}), {inMetres: true});
 if (levels) await write(await level(levels, 2000, {float32Coordinates: true, signal: stop.signal}), lines[0] ?? 'hull.stl');
 const proof: Uint8Array = await certificate(hull, new Uint8Array(84), 'part.stl', {isStl: true, side: 'outer'});
 const files: Uint8Array[] = [await writeSeveral([{...part, name: 'a'}], 'a.obj'), await spheresJson([0, 0, 0, 1], 'a')];
-const {facts, blocks} = await scene({...hulls[0]!, name: 'hull'}, {...part, name: 'part'}, {side: 'inner'});
+const {facts, blocks} = told ? await scene({levels: levels!, name: 'a'}, null) : await scene({...hulls[0]!, name: 'hull'}, {...part, name: 'part'}, {side: 'inner'});
 const engine: Engine = await loadEngine(new WebAssembly.Module(proof as BufferSource));
 const found = engine.inspect(part).defects['open edges'] ?? facts.length + blocks.length + files.length;
 if (new InputError('') instanceof Error && found > 0) engine.write(engine.level(levels!, 10), 'a.ply');

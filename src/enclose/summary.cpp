@@ -84,6 +84,16 @@ std::string line_of_missed_bounds(const ToldHull& told) {
   return line;
 }
 
+std::string certificate_of(const ToldLevel& told) {
+  if (!told.found) return "yes, the file as written is the finest level";
+  const Verification& found = *told.found;
+  const std::string what = claim(found, "the file as written", "the finest level");
+  if (found.certified) return "yes, " + what;
+  if (found.faces_outside == 0) return fmt::format("no, {}: {}", what, found.why_not);
+  return fmt::format("no, {}, of which {} {} not covered, at least in part: {}", what,
+                     counted(found.faces_outside, "face"), found.faces_outside == 1 ? "is" : "are", found.why_not);
+}
+
 }  // namespace
 
 std::string claim(const Verdict& verdict, const std::string& subject, const std::string& object) {
@@ -255,6 +265,17 @@ std::vector<std::string> lines_of_proof(const Verdict& verdict) {
     lines.push_back(fmt::format("gap: the least distance from the mesh is at least {:.6g}, proven{}",
                                 rounded_down(*verdict.gap, 6),
                                 verdict.side == HullSide::Outer ? "; all points within it are inside" : ""));
+  return lines;
+}
+
+std::vector<std::string> lines_of_level(const std::string& name, const ToldLevel& told) {
+  std::vector<std::string> lines{
+      fmt::format("{}: {} of {}{}", name, counted(told.faces, "face"), grouped(told.hull.original_face_count()),
+                  told.target_faces != 0 && told.faces > told.target_faces ? ", which is the coarsest level of the file"
+                                                                           : "")};
+  if (const std::string finest = described_finest_level(told.hull.finest_level()); !finest.empty())
+    lines.push_back(fmt::format("the finest level of the file is {}, not the input itself", finest));
+  lines.push_back("certified: " + certificate_of(told));
   return lines;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -74,5 +75,16 @@ std::string line_of_hull(const std::string& name, const ToldHull& told);
 std::vector<std::string> lines_of_shape(const ToldHull& told);
 std::vector<std::string> lines_of_limits(const ToldHull& told);
 std::vector<std::string> lines_of_proof(const Verdict& verdict);
+
+/// A level of a hull, as a file holds it.
+struct ToldLevel {
+  const ProgressiveHull& hull;
+  std::size_t target_faces;                 ///< that were asked for; 0: the coarsest level was
+  std::size_t faces;                        ///< that the level has
+  const std::optional<Verification>& found;  ///< against the finest level, unless the file holds that, bit for bit
+};
+
+/// What `prohull lod` says of it, line by line.
+std::vector<std::string> lines_of_level(const std::string& name, const ToldLevel& told);
 
 }  // namespace prohull

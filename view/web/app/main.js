@@ -8,7 +8,7 @@ import {View} from '../src/view.js';
 import {MOST_MEGABYTES, bytesOf, treeOfEntries, treeOfFiles, treeOfZip} from './robot/folder.js';
 import {Robots} from './robot/robots.js';
 import {READ} from './robot/urdf.js';
-import {commandOf, fillForm, formText, formValues, isOneFile, optionsFor, pieceName, showOptions, stem, wanted} from './wanted.js';
+import {commandOf, fillForm, formText, formValues, isOneFile, optionsFor, pieceName, readingOptions, showOptions, stem, wanted} from './wanted.js';
 
 const MOST_FACES = 7e6;         // of the 4 GB that WebAssembly has, the scene of a hull takes 540 bytes for each face
 const SAMPLES = {bracket: 20000, pony: 100000, knot: 20000, asteroid: 20000, gyroid: 40000, torus: 5000};
@@ -16,8 +16,8 @@ const REST = 300;              // milliseconds after which a level is measured
 const CAMERA = 'vtcadsp';       // of the address: what of a picture holds for any other part, too
 const CERTIFIED = /\.(stl|obj|ply|off)(\.gz)?$/i;  // files that prohull_check reads
 
-let part = null;               // {name, bytes, mesh, inspection}, and of a sample what it is called
-let made = null;               // {want, hull, isLevel}
+let part = null;               // {name, bytes, mesh, reading, inspection}, and of a sample what it is called; of a .phull file also its levels, and `mesh` is the finest
+let made = null;               // {want, hull}, and of the levels of a file the one of which is told
 let current = null;            // formText() of what is shown, if that was made to the end
 let view = null, job = null, aside = 0, robots;
 let shown = {};                // of the address: what the picture shows
@@ -134,6 +134,8 @@ function refuseFaces(name, faces) {
         `${grouped(MOST_FACES)}. The program prohull takes larger ones.`);
 }
 
+const showForm = () => showOptions(robots.isOpen ? 'robot' : part?.levels ? 'levels' : undefined);
+
 /** An empty page. */
 function forget() {
   for (const id of ['result', 'name']) byId(id).hidden = true;
@@ -150,17 +152,39 @@ const take = (read, fragment = cameraOf(shown)) => run(async (running) => {
   await takePart(await read(running), fragment, running);
 });
 
-async function takePart(next, fragment, running) {
-  next.mesh = await prohull.read(next.bytes, next.name, running);
+/** The mesh that the file of a part holds, in metres if the form knows its unit. */
+async function readPart(next, running) {
+  next.reading = readingOptions();
+  next.mesh = await prohull.read(next.bytes, next.name, {...next.reading, ...running});
   next.inspection = await prohull.inspect(next.mesh, running);
   running.signal.throwIfAborted();
   refuseFaces(next.name, next.inspection.faces);
+}
+
+async function takePart(next, fragment, running) {
+  if (/\.phull$/i.test(next.name)) return takeLevels(next, fragment, running);
+  await readPart(next, running);
   part = next;
   byId('sample').value = part.sample ?? '';
   showPart();
   const alone = prohull.scene(null, {...part.mesh, name: part.name}, {signal: running.signal})
       .then((scene) => made || running.signal.aborted ? null : draw(scene, cameraOf(fragment)));
   for (const {reason} of await Promise.allSettled([make(running, fragment), alone])) if (reason) throw reason;
+}
+
+/** Shows the levels that a .phull file holds. */
+async function takeLevels(next, fragment, running) {
+  next.levels = await prohull.readLevels(next.bytes, next.name, running);
+  next.mesh = await prohull.level(next.levels, Infinity, running);
+  running.signal.throwIfAborted();
+  refuseFaces(next.name, next.mesh.faces.length / 3);
+  part = next;
+  showForm();
+  byId('name').hidden = false;
+  byId('name').textContent = part.name;
+  byId('found').textContent = `Levels of an ${part.levels.side} hull, up to ${counted(part.mesh.faces.length / 3, 'face', 'faces')}. ` +
+      'The part that they were made of is not in the file: distances and the verdict are about the finest level.';
+  await make(running, fragment);
 }
 
 /** Shows a folder or an archive: a robot, or the only mesh in it. */
@@ -171,7 +195,7 @@ const takeTree = (read) => run(async (running) => {
   const paths = [...tree.keys()], meshes = paths.filter((path) => READ.test(path));
   if (meshes.length === 1 && !paths.some((path) => /\.(urdf|xacro|sdf|xml)$/i.test(path)))
     return takePart({name: meshes[0].slice(meshes[0].lastIndexOf('/') + 1), bytes: await tree.get(meshes[0]).read()}, cameraOf(shown), running);
-  showOptions(true);
+  showOptions('robot');
   await robots.open(tree, running);
 });
 
@@ -184,20 +208,26 @@ const makers = {
   hull: (want, options) => prohull.build(part.mesh, Number(want.faces), options),
   pieces: (want, options) => prohull.convexPieces(part.mesh, options),
   spheres: (want, options) => prohull.spheres(part.mesh, options),
+  level: async (want, {signal, progress}) => ({levels: part.levels, ...await prohull.level(part.levels, 0, {signal, progress})}),
 };
 
 /** What the library's drawing of scenes takes of a result. */
 function sceneOf(want, hull) {
-  const name = want.out;
+  const name = want.make === 'level' ? part.name : want.out;
   if (want.make === 'pieces') return {name, pieces: hull.pieces};
   if (want.make === 'spheres') return {name, balls: hull.balls};
   return hull.levels ? {name, levels: hull.levels} : {name, vertices: hull.vertices, faces: hull.faces};
 }
 
 async function make({signal, progress}, fragment) {
-  const form = formText(), want = wanted(part);
+  const form = formText(), want = wanted(part), own = part;
+  if (want.make !== 'level' && want.unit !== (own.reading.unit ?? '')) {
+    await readPart(own, {signal, progress});
+    showPart();
+  }
   const hull = await makers[want.make](want, {...await optionsFor(want, part), signal, progress});
-  const scene = await prohull.scene(sceneOf(want, hull), {...part.mesh, name: part.name}, {side: want.side, signal, progress});
+  const original = want.make === 'level' ? null : {...part.mesh, name: part.name};
+  const scene = await prohull.scene(sceneOf(want, hull), original, {side: want.side, signal, progress});
   signal.throwIfAborted();
   made = {want, hull};
   await draw(scene, fragment);
@@ -205,20 +235,23 @@ async function make({signal, progress}, fragment) {
   showResult();
   remember();
   setCurrent(form);
+  if (want.make === 'level') await judge(null);
 }
 
 /** Makes what the form asks for now. */
 const makeAgain = () => run((running) => robots.isOpen ? robots.make(running) : make(running, cameraOf(shown)));
 
+const tell = (lines) => byId('summary').replaceChildren(...lines.map((line) => el('li', {}, line)));
+
 function showResult() {
   const {want, hull} = made;
   byId('result').hidden = false;
   byId('slider').replaceChildren(...[byId('level')?.closest('section')].filter(Boolean));  // the levels stand above the rest
-  const missed = want.make === 'hull' || hull.withinBounds ? [] : ['NOT within the bounds asked for; allow a larger number, or larger bounds'];
-  byId('summary').replaceChildren(...[...hull.summary, ...missed].map((line) => el('li', {}, line)));
-  byId('save-levels').hidden = !(hull.levels && hull.certified);
+  const missed = want.make === 'hull' || hull.withinBounds !== false ? [] : ['NOT within the bounds asked for; allow a larger number, or larger bounds'];
+  if (want.make !== 'level') tell([...hull.summary, ...missed]);
+  byId('save-levels').hidden = !(want.hasLevels && hull.levels && hull.certified);
   byId('save-certificate').hidden = !(want.make === 'hull' && hull.certified && CERTIFIED.test(part.name) && want.to !== 'glb');
-  byId('save').disabled = !hull.certified;
+  byId('save').disabled = !hull.certified && want.make !== 'level';  // which the command writes, and says so
   refreshed();
 }
 
@@ -237,8 +270,21 @@ function refreshed() {
   byId('command').textContent = commandOf(made.want, part, faces);
   byId('save').textContent = `Save ${made.want.out}${faces ? `, ${grouped(faces)} faces` : ''}`;
   byId('save-certificate').disabled = faces !== null;
+  const isNew = made.want.make === 'level' && made.judged !== faces;
+  if (isNew) tell(['…']);
   clearTimeout(resting);
-  if (faces !== null && !job) resting = setTimeout(() => beside(() => measure(faces)), REST);
+  if (!job && (isNew || faces !== null))
+    resting = setTimeout(() => beside(() => Promise.all([isNew && judge(faces), faces !== null && measure(faces)])), REST);
+}
+
+/** Tells of a level of a file what the command tells of it. Not every level has coordinates that STL and GLB files can hold. */
+async function judge(faces) {
+  const own = made;
+  own.judged = faces;
+  complain('');
+  tell([]);
+  const {summary} = await prohull.level(own.hull.levels, faces ?? 0, await optionsFor(own.want, part));
+  if (made === own && own.judged === faces) tell(summary);
 }
 
 /** Bounds the distance of a level, which then counts among those of the panel. */
@@ -271,10 +317,9 @@ function merged(pieces) {
 /** What is saved: the bytes that the command writes, where that writes one file. */
 async function contentOf({want, hull}, faces) {
   if (want.make === 'spheres') return prohull.spheresJson(hull.balls, stem(part.name));
-  if (want.make === 'hull') {
-    const float32Coordinates = ['stl', 'glb'].includes(want.to);
-    return prohull.write(faces ? await prohull.level(hull.levels, faces, {float32Coordinates}) : hull, want.out);
-  }
+  const float32Coordinates = ['stl', 'glb'].includes(want.to);
+  if (faces || want.make === 'level') return prohull.write(await prohull.level(hull.levels, faces ?? 0, {float32Coordinates}), want.out);
+  if (want.make === 'hull') return prohull.write(hull, want.out);
   if (!isOneFile(want)) return prohull.write(merged(hull.pieces), want.out);
   return prohull.writeSeveral(hull.pieces.map((piece, i) => ({...piece, name: pieceName(want, i)})), want.out);
 }
@@ -292,7 +337,7 @@ const saveLevels = async () => {
 const saveCertificate = async () => {
   const {want, hull} = made, {bytes, name} = part, {gap = 0, maxDistance} = await optionsFor(want, part);
   save(await prohull.certificate({vertices: hull.vertices, faces: hull.faces}, bytes, name, {
-    side: want.side, isStl: /\.stl(\.gz)?$/i.test(name), gap, provenGap: hull.gap, distance: hull.distanceToTriangles,
+    ...part.reading, side: want.side, isStl: /\.stl(\.gz)?$/i.test(name), gap, provenGap: hull.gap, distance: hull.distanceToTriangles,
     ...(maxDistance === undefined ? {} : {maxDistance})}), `${want.stem}_hull.phcert`);
 };
 
@@ -328,7 +373,7 @@ function listen() {
   };
   byId('part').onsubmit = (event) => event.preventDefault();
   byId('options').addEventListener('change', () => {
-    showOptions(robots.isOpen);
+    showForm();
     remember();
     if (part || robots.isOpen) makeAgain();
   });

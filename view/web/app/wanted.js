@@ -3,7 +3,8 @@
 import * as prohull from 'prohull';
 import {byId, grouped} from '../src/panel/dom.js';
 
-const DEFAULTS = {make: 'hull', faces: '500', count: '16', distance: '', void: '', side: 'outer', gap: '', tight: '0', levels: '1', to: 'stl'};
+const DEFAULTS = {make: 'hull', faces: '500', count: '16', distance: '', void: '', side: 'outer', gap: '', shells: 'close', unit: '', tight: '0', cavities: '0',
+  levels: '1', to: 'stl'};
 const field = (name) => byId(`want-${name}`);
 const kept = (name) => field(name).type === 'checkbox' ? (field(name).checked ? '1' : '0') : field(name).value.trim();
 
@@ -28,12 +29,11 @@ export function fillForm(values) {
 /** Other hulls have none, or are larger if they have. */
 const canHaveLevels = () => ['side', 'tight', 'gap', 'distance', 'void'].every((name) => kept(name) === DEFAULTS[name]);
 
-/** Only the options of what is to be made: that is chosen for parts, and hulls for robots. */
-export function showOptions(isRobot = false) {
-  for (const element of document.querySelectorAll('[data-for]'))
-    element.hidden = !element.dataset.for.split(' ').includes(isRobot ? 'robot' : kept('make'));
+/** Only the options of what is to be made: the form says that of parts, but not of a robot and of the levels of a file. */
+export function showOptions(of = kept('make')) {
+  for (const element of document.querySelectorAll('[data-for]')) element.hidden = !element.dataset.for.split(' ').includes(of);
   if (!canHaveLevels()) field('levels').labels[0].hidden = true;
-  field('distance').placeholder = isRobot ? 'any; mm or 1%' : 'any; 0.5 or 1%';
+  field('distance').placeholder = of === 'robot' ? 'any; mm or 1%' : 'any; 0.5 or 1%';
 }
 
 const quoted = (text) => /^[\w.%+:,/-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
@@ -72,9 +72,13 @@ export function pieceName({stem, count}, i) {
 export function wanted(part) {
   const values = Object.fromEntries(Object.keys(DEFAULTS).map((name) => [name, kept(name)]));
   for (const name of ['faces', 'count', 'void']) check(name, RANGES[name === 'count' ? values.make : name]);
-  const suffix = values.make === 'spheres' ? 'json' : values.to, own = stem(part.name).replace(/[{}]/g, '_');  // the command fills in {name}
-  return {...values, isTight: values.tight === '1', hasLevels: values.make === 'hull' && values.levels === '1' && canHaveLevels(), out: `${own}_${values.make}.${suffix}`, stem: own};
+  const make = part.levels ? 'level' : values.make, suffix = make === 'spheres' ? 'json' : values.to;
+  const own = stem(part.name).replace(/[{}]/g, '_');  // the command fills in {name}
+  return {...values, make, isTight: values.tight === '1', hasLevels: make === 'hull' && values.levels === '1' && canHaveLevels(), out: `${own}_${make}.${suffix}`, stem: own};
 }
+
+/** How the file of a part is read. */
+export const readingOptions = () => kept('unit') === '' ? {} : {unit: kept('unit')};
 
 function check(name, range) {
   const why = field(name).labels[0].hidden ? '' : whyNot(field(name), range);
@@ -87,21 +91,23 @@ function refuse(name, why) {
 
 async function lengthOf(name, text, part) {
   if (text === '') return undefined;
-  const length = await prohull.length(text, part.mesh);
+  const length = await prohull.length(text, part.mesh, {inMetres: kept('unit') !== ''});
   if (length === 0) refuse(name, `it must be greater than 0, not ${text}`);
   return length;
 }
 
 /** For the functions of the library; options that are not given are left out. */
 export async function optionsFor(want, part) {
+  const float32Coordinates = ['stl', 'glb'].includes(want.to), summaryOf = want.out;
+  if (want.make === 'level') return {float32Coordinates, summaryOf};
   const maxDistance = await lengthOf('distance', want.distance, part);
   const gap = want.make === 'hull' ? await lengthOf('gap', want.gap, part) : undefined;
   const maxVoidPercent = want.void === '' || want.make === 'spheres' ? undefined : Number(want.void);
-  const float32Coordinates = ['stl', 'glb'].includes(want.to);
-  const all = want.make === 'hull' ? {side: want.side, tight: want.isTight, levels: want.hasLevels, gap, maxDistance, maxVoidPercent, float32Coordinates}
+  const all = want.make === 'hull' ? {side: want.side, tight: want.isTight, levels: want.hasLevels, gap, maxDistance, maxVoidPercent,
+    openShells: want.shells, keepCavities: want.cavities === '1', float32Coordinates}
       : want.make === 'pieces' ? {pieces: Number(want.count), maxDistance, maxVoidPercent, float32Coordinates}
       : {count: Number(want.count), maxDistance};
-  return Object.fromEntries(Object.entries({...all, summaryOf: want.out}).filter(([, value]) => value !== undefined));
+  return Object.fromEntries(Object.entries({...all, summaryOf}).filter(([, value]) => value !== undefined));
 }
 
 /** For each mesh of a robot, whose lengths are in metres: bare numbers are millimetres. */
@@ -117,16 +123,20 @@ export function robotOptions() {
 const flags = (pairs) => pairs.filter(([, value]) => value !== '' && value !== false)
     .map(([flag, value]) => value === true ? flag : `${flag} ${quoted(value)}`).join(' ');
 
+const levelCommand = (levels, out, faces) => `prohull lod ${quotedFile(levels)} -o ${out}${faces === null ? '' : ` --faces ${faces}`}`;
+
 /** What does the same; `faces` are those of a finer level, or null. */
 export function commandOf(want, part, faces) {
   const sample = part.sample ? `prohull sample ${part.sample} --faces ${part.sampleFaces} -o ${quotedFile(part.name)}\n` : '';
-  const file = quotedFile(part.name), out = quotedFile(want.out), bounds = [['--max-distance', want.distance], ['--max-void', want.void]];
+  const file = quotedFile(part.name), out = quotedFile(want.out), bounds = [['--max-distance', want.distance], ['--max-void', want.void]], unit = ['--unit', want.unit];
+  if (want.make === 'level') return levelCommand(part.name, out, faces);
   if (want.make === 'spheres')
-    return `${sample}prohull spheres ${file} -o ${out} ${flags([['--count', want.count], bounds[0]])}`;
+    return `${sample}prohull spheres ${file} -o ${out} ${flags([unit, ['--count', want.count], bounds[0]])}`;
   const each = isOneFile(want) ? '' : `# writes a file for each piece\n`;
-  if (want.make === 'pieces') return `${sample}${each}prohull convex ${file} -o ${out} ${flags([['--pieces', want.count], ...bounds])}`;
+  if (want.make === 'pieces') return `${sample}${each}prohull convex ${file} -o ${out} ${flags([unit, ['--pieces', want.count], ...bounds])}`;
   const levels = `${want.stem}.phull`;
   const build = `${sample}prohull build ${file} -o ${out} ` +
-      flags([['--faces', want.faces], ...bounds, ['--side', want.side === 'inner' && 'inner'], ['--tight', want.isTight], ['--gap', want.gap], ['--hierarchy', want.hasLevels && plain(levels)]]);
-  return faces === null ? build : `${build}\nprohull lod ${quotedFile(levels)} -o ${out} --faces ${faces}`;
+      flags([unit, ['--faces', want.faces], ...bounds, ['--side', want.side === 'inner' && 'inner'], ['--tight', want.isTight], ['--gap', want.gap],
+        ['--open-shells', want.shells === 'keep' && 'keep'], ['--keep-cavities', want.cavities === '1'], ['--hierarchy', want.hasLevels && plain(levels)]]);
+  return faces === null ? build : `${build}\n${levelCommand(levels, out, faces)}`;
 }
