@@ -225,7 +225,7 @@ int run_build(const BuildOptions& options) {
     check_several(options, meshes);
     return run_each(meshes, table_head(), [&](const std::filesystem::path& mesh) {
       const BuildOutcome outcome = build_and_write(for_mesh(options, mesh));
-      return MeshOutcome{exit_code(options, outcome), table_rows(outcome), is_as_asked(outcome)};
+      return MeshOutcome{exit_code(options, outcome), table_rows(options, outcome), is_as_asked(outcome)};
     });
   }
   const BuildOptions one = for_mesh(options, meshes.front());

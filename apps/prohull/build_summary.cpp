@@ -193,6 +193,10 @@ void print_search(const BuildOutcome& outcome) {
   }
 }
 
+std::string table_row(const auto& cells) {
+  return fmt::format("{:>11}  {:>9}  {:>8}  {:>9}  {}", cells[0], cells[1], cells[2], cells[3], cells[4]);
+}
+
 }  // namespace
 
 void print_summary(const BuildOptions& options, const BuildOutcome& outcome) {
@@ -205,31 +209,12 @@ void print_summary(const BuildOptions& options, const BuildOutcome& outcome) {
   print_search(outcome);
 }
 
-/// What a row of the table has to say behind its yes.
-std::string caveats_of(const Written& written) {
-  const Verdict& verdict = written.measures.verdict;
-  std::string text;
-  if (!written.hull.within_bounds) text += ", NOT within the bounds";
-  if (const std::size_t dropped = verdict.non_finite_faces; dropped > 0)
-    text += fmt::format(", of finite triangles ({} {} not)", grouped(dropped), dropped == 1 ? "is" : "are");
-  if (verdict.cap_faces > 0 && verdict.distance_to_triangles)
-    text += fmt::format(", with openings closed ({:.4g} from the triangles alone)",
-                        rounded_up(verdict.distance_to_triangles->upper, 4));
-  return text;
-}
+std::string table_head() { return table_row(kTableHead); }
 
-std::string table_head() {
-  return fmt::format("{:>11}  {:>9}  {:>8}  {:>9}  {}", "faces", "hull", "void", "distance", "certified");
-}
-
-std::vector<std::string> table_rows(const BuildOutcome& outcome) {
+std::vector<std::string> table_rows(const BuildOptions& options, const BuildOutcome& outcome) {
   std::vector<std::string> rows;
   for (const Written& written : outcome.written)
-    rows.push_back(fmt::format("{:>11}  {:>9}  {:>8}  {:>9.4g}  {}", grouped(outcome.made.input.found.faces),
-                               grouped(written.hull.mesh.face_count()),
-                               std::isnan(written.hull.void_ratio) ? "" : percent_text(written.hull.void_ratio, 2),
-                               rounded_up(written.measures.verdict.distance().upper, 4),
-                               written.certified() ? "yes" + caveats_of(written) : "NO"));
+    rows.push_back(table_row(cells_of_hull(told(options, outcome, written), written.measures.verdict)));
   return rows;
 }
 

@@ -61,7 +61,7 @@ struct BuildOutcome {
 void print_summary(const BuildOptions& options, const BuildOutcome& outcome);
 /// What each hull has in a table of several meshes, and the head of that table.
 std::string table_head();
-std::vector<std::string> table_rows(const BuildOutcome& outcome);
+std::vector<std::string> table_rows(const BuildOptions& options, const BuildOutcome& outcome);
 nlohmann::json report_of(const BuildOptions& options, const BuildOutcome& outcome);
 
 }  // namespace prohull::cli

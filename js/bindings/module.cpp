@@ -60,10 +60,13 @@ void add_summary(val& object, const std::string& file, const EnclosingHull& hull
   lines.push_back(line_of_hull(file, told));
   const std::string content = hull.certified ? mesh_content(file, hull.mesh) : "";
   const bool written = hull.certified && has_triangles_of(read_mesh(std::string_view(content), file), hull.mesh);
-  for (const auto& more :
-       {lines_of_shape(told), lines_of_limits(told), lines_of_proof(as_written(measures.verdict, written))})
+  const Verdict verdict = as_written(measures.verdict, written);
+  for (const auto& more : {lines_of_shape(told), lines_of_limits(told), lines_of_proof(verdict)})
     lines.insert(lines.end(), more.begin(), more.end());
   object.set("summary", strings_of(lines));
+  object.set("certified", verdict.certified);
+  const auto cells = cells_of_hull(told, verdict);
+  object.set("tableRow", strings_of({cells.begin(), cells.end()}));
   add_distances(object, measures.verdict);
 }
 

@@ -74,7 +74,7 @@ interface Distances {
 
 /** The distances are those of a hull with a summary. */
 export interface Hull extends Mesh, Distances {
-  /** Proven exactly, by code that shares nothing with the construction: the hull encloses the mesh. */
+  /** Proven exactly, by code that shares nothing with the construction: the hull encloses the mesh. With a summary, of the file as written. */
   certified: boolean;
   proof: '' | 'replay' | 'enclosure' | 'coverage' | 'padding';
   /** Proven least distance from the mesh, if a gap was asked for. */
@@ -93,6 +93,9 @@ export interface Hull extends Mesh, Distances {
   levels?: Levels;
   /** What `prohull build` prints of the hull, line by line. */
   summary?: string[];
+  /** With the summary: what `prohull build` prints of it in a table of several meshes: the faces of the mesh, those of the hull, void, distance,
+   * and whether it is certified. */
+  tableRow?: string[];
 }
 
 export interface Verification {

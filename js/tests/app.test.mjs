@@ -362,6 +362,53 @@ function unpacked(bytes, folder) {
   return Object.keys(files);
 }
 
+test('several meshes become a hull each, told of and written as the command does', {skip}, async () => {
+  const page = await opened({fragment: '#make=pieces&faces=100&void=200&distance=2%25'}), folder = join(scratch, 'parts');
+  mkdirSync(folder, {recursive: true});
+  run('sample', 'bracket', '--faces', '3000', '-o', join(folder, 'bracket.stl'));
+  run('sample', 'torus', '--faces', '2000', '-o', join(folder, 'torus.ply'));
+  writeFileSync(join(folder, 'open.off'), 'OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n');
+  writeFileSync(join(folder, 'broken.obj'), 'v 1 2\nf 1 2 3\n');
+  writeFileSync(join(folder, 'notes.txt'), 'x');
+  await droppedFolder(page, folder);
+  await settled(page);
+  const table = () => page.evaluate(() => [...document.querySelectorAll('#several tr')].map((row) => [...row.cells].map((cell) => cell.textContent)));
+  const compared = async () => {
+    assert.equal(await text(page, 'problem'), '');
+    const PATH = `${dirname(process.env.PROHULL)}:${process.env.PATH}`, own = join(scratch, 'hulls');
+    rmSync(own, {recursive: true, force: true});
+    const {stdout, stderr} = spawnSync('sh', ['-c', await text(page, 'several-command')], {cwd: scratch, env: {...process.env, PATH}, encoding: 'utf8'});
+    const lines = stdout.trim().split('\n').map((line) => line.trim().split(/ {2,}/)), shown = await table();
+    assert.deepEqual(shown[0].map((word) => word.toLowerCase()), lines[0]);
+    for (const cells of lines.slice(1, -1)) assert.deepEqual(shown.find(([name]) => name === cells[0]), cells);
+    assert.equal(shown.length, lines.length, 'the mesh that is not read has a row, and the last line is none of a mesh');
+    const [, why] = shown.find(([name]) => name === 'broken.obj');
+    assert.ok(stderr.includes(why), why);
+    const made = join(scratch, 'zip'), zip = await saved(page, 'save-several');
+    const names = unpacked(zip.bytes, made).sort();
+    assert.deepEqual(names, readdirSync(own).sort());
+    for (const name of names) assert.equal(hash(readFileSync(join(made, name))), hash(readFileSync(join(own, name))), name);
+    return names;
+  };
+  assert.match(await text(page, 'found'), /^1 file of other kinds is left out\.$/);
+  assert.deepEqual(await compared(), ['bracket.stl', 'open.stl', 'torus.stl']);
+  assert.match((await table()).find(([name]) => name === 'open.off').at(-1), /^yes, with openings closed/);
+  await page.click('#meshes tr:last-child button');
+  await page.waitForSelector('#meshes tr:last-child button[aria-pressed=true]');
+  assert.match(await text(page, 'content'), /torus\.stl encloses parts\/torus\.ply: decided exactly/);
+  assert.ok(await page.isHidden('#want-levels') && await page.isHidden('#want-make') && await page.isVisible('#want-side'));
+  await page.selectOption('#want-to', 'obj');
+  await settled(page);
+  await page.selectOption('#want-side', 'inner');
+  await settled(page);
+  assert.ok((await compared()).includes('torus.obj'));
+  writeFileSync(join(folder, 'torus.off'), readFileSync(join(folder, 'open.off')));
+  await page.setInputFiles('#file', ['torus.ply', 'torus.off'].map((name) => join(folder, name)));
+  await settled(page);
+  assert.equal(await text(page, 'problem'), 'torus.off and torus.ply: the hulls of both would be called torus.obj; rename one of them');
+  await closed(page);
+});
+
 /** The folder of a robot of three links: a mesh, two meshes of which one is a mirror image in millimetres, and one that is not there. */
 function robotFolder() {
   const folder = join(scratch, 'arm');

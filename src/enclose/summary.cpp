@@ -94,6 +94,18 @@ std::string certificate_of(const ToldLevel& told) {
                      counted(found.faces_outside, "face"), found.faces_outside == 1 ? "is" : "are", found.why_not);
 }
 
+/// What a row of the table has to say behind its yes.
+std::string caveats_of(const EnclosingHull& hull, const Verdict& verdict) {
+  std::string text;
+  if (!hull.within_bounds) text += ", NOT within the bounds";
+  if (const std::size_t dropped = verdict.non_finite_faces; dropped > 0)
+    text += fmt::format(", of finite triangles ({} {} not)", grouped(dropped), dropped == 1 ? "is" : "are");
+  if (verdict.cap_faces > 0 && verdict.distance_to_triangles)
+    text += fmt::format(", with openings closed ({:.4g} from the triangles alone)",
+                        rounded_up(verdict.distance_to_triangles->upper, 4));
+  return text;
+}
+
 }  // namespace
 
 std::string claim(const Verdict& verdict, const std::string& subject, const std::string& object) {
@@ -266,6 +278,14 @@ std::vector<std::string> lines_of_proof(const Verdict& verdict) {
                                 rounded_down(*verdict.gap, 6),
                                 verdict.side == HullSide::Outer ? "; all points within it are inside" : ""));
   return lines;
+}
+
+std::array<std::string, kTableHead.size()> cells_of_hull(const ToldHull& told, const Verdict& verdict) {
+  const EnclosingHull& hull = told.hull;
+  return {grouped(told.made.input.found.faces), grouped(hull.mesh.face_count()),
+          std::isnan(hull.void_ratio) ? "" : percent_text(hull.void_ratio, 2),
+          fmt::format("{:.4g}", rounded_up(verdict.distance().upper, 4)),
+          verdict.certified ? "yes" + caveats_of(hull, verdict) : "NO"};
 }
 
 std::vector<std::string> lines_of_level(const std::string& name, const ToldLevel& told) {

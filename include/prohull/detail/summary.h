@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -75,6 +76,11 @@ std::string line_of_hull(const std::string& name, const ToldHull& told);
 std::vector<std::string> lines_of_shape(const ToldHull& told);
 std::vector<std::string> lines_of_limits(const ToldHull& told);
 std::vector<std::string> lines_of_proof(const Verdict& verdict);
+
+/// What a hull has in a table of several meshes: the faces of the mesh, its own, its void, its distance, and whether it
+/// is certified. `verdict`: about the file as written.
+constexpr std::array<const char*, 5> kTableHead{"faces", "hull", "void", "distance", "certified"};
+std::array<std::string, kTableHead.size()> cells_of_hull(const ToldHull& told, const Verdict& verdict);
 
 /// A level of a hull, as a file holds it.
 struct ToldLevel {

@@ -7,6 +7,7 @@ import {byId, counted, el, grouped, short} from '../src/panel/dom.js';
 import {View} from '../src/view.js';
 import {MOST_MEGABYTES, bytesOf, treeOfEntries, treeOfFiles, treeOfZip} from './robot/folder.js';
 import {Robots} from './robot/robots.js';
+import {Several} from './several.js';
 import {READ} from './robot/urdf.js';
 import {commandOf, fillForm, formText, formValues, isOneFile, optionsFor, pieceName, readingOptions, showOptions, stem, wanted} from './wanted.js';
 
@@ -16,11 +17,16 @@ const REST = 300;              // milliseconds after which a level is measured
 const CAMERA = 'vtcadsp';       // of the address: what of a picture holds for any other part, too
 const CERTIFIED = /\.(stl|obj|ply|off)(\.gz)?$/i;  // files that prohull_check reads
 
+const WELCOME = byId('message').textContent;
+
 let part = null;               // {name, bytes, mesh, reading, inspection}, and of a sample what it is called; of a .phull file also its levels, and `mesh` is the finest
 let made = null;               // {want, hull}, and of the levels of a file the one of which is told
 let current = null;            // formText() of what is shown, if that was made to the end
-let view = null, job = null, aside = 0, robots;
+let view = null, job = null, aside = 0;
+let batches = [];              // what makes several hulls: of the links of a robot, and of several meshes
 let shown = {};                // of the address: what the picture shows
+
+const openBatch = () => batches.find(({isOpen}) => isOpen);
 
 const cameraOf = (values) => Object.fromEntries(Object.entries(values).filter(([key]) => CAMERA.includes(key)));
 
@@ -46,7 +52,7 @@ function tellProgress(stage, fraction) {
 
 /** Where the form asks for something else than is shown, a button makes that. */
 function tellAge() {
-  const isOld = (part || robots.isOpen) && current !== formText();
+  const isOld = (part || openBatch()) && current !== formText();
   byId('old').hidden = !isOld || (job !== null && current === null);
   byId('age').textContent = current === null ? 'Nothing was made to the end.' : 'The result was made with other settings.';
   byId('make').hidden = job !== null;
@@ -134,16 +140,16 @@ function refuseFaces(name, faces) {
         `${grouped(MOST_FACES)}. The program prohull takes larger ones.`);
 }
 
-const showForm = () => showOptions(robots.isOpen ? 'robot' : part?.levels ? 'levels' : undefined);
+const showForm = () => showOptions(openBatch()?.kind ?? part?.make);
 
 /** An empty page. */
 function forget() {
   for (const id of ['result', 'name']) byId(id).hidden = true;
   byId('found').textContent = byId('sample').value = '';
   part = made = current = null;
-  robots.close();
+  for (const batch of batches) batch.close();
   showOptions();
-  clear('Drop a part or the folder of a robot on this page, open a file, or take a sample.');
+  clear(WELCOME);
 }
 
 /** Shows a file, and makes what is wanted of it. `read` gives its name and its bytes, and what else a part has. */
@@ -174,6 +180,7 @@ async function takePart(next, fragment, running) {
 
 /** Shows the levels that a .phull file holds. */
 async function takeLevels(next, fragment, running) {
+  next.make = 'level';
   next.levels = await prohull.readLevels(next.bytes, next.name, running);
   next.mesh = await prohull.level(next.levels, Infinity, running);
   running.signal.throwIfAborted();
@@ -187,16 +194,18 @@ async function takeLevels(next, fragment, running) {
   await make(running, fragment);
 }
 
-/** Shows a folder or an archive: a robot, or the only mesh in it. */
+/** Shows a folder or an archive: a robot, meshes, or the only mesh in it. */
 const takeTree = (read) => run(async (running) => {
   forget();
   const tree = await read();
   running.signal.throwIfAborted();
   const paths = [...tree.keys()], meshes = paths.filter((path) => READ.test(path));
-  if (meshes.length === 1 && !paths.some((path) => /\.(urdf|xacro|sdf|xml)$/i.test(path)))
+  const isRobot = meshes.length === 0 || paths.some((path) => /\.(urdf|xacro|sdf|xml)$/i.test(path));
+  if (meshes.length === 1 && !isRobot)
     return takePart({name: meshes[0].slice(meshes[0].lastIndexOf('/') + 1), bytes: await tree.get(meshes[0]).read()}, cameraOf(shown), running);
-  showOptions('robot');
-  await robots.open(tree, running);
+  const batch = batches[isRobot ? 0 : 1];
+  showOptions(batch.kind);
+  await batch.open(tree, running, meshes);
 });
 
 async function sampleOf(name) {
@@ -239,7 +248,7 @@ async function make({signal, progress}, fragment) {
 }
 
 /** Makes what the form asks for now. */
-const makeAgain = () => run((running) => robots.isOpen ? robots.make(running) : make(running, cameraOf(shown)));
+const makeAgain = () => run((running) => openBatch()?.make(running) ?? make(running, cameraOf(shown)));
 
 const tell = (lines) => byId('summary').replaceChildren(...lines.map((line) => el('li', {}, line)));
 
@@ -375,7 +384,7 @@ function listen() {
   byId('options').addEventListener('change', () => {
     showForm();
     remember();
-    if (part || robots.isOpen) makeAgain();
+    if (part || openBatch()) makeAgain();
   });
   byId('make').onclick = makeAgain;
   byId('cancel').onclick = () => job?.abort();
@@ -407,7 +416,8 @@ function open() {
   byId('most').textContent = `${MOST_MEGABYTES} MB and ${grouped(MOST_FACES)} faces`;
   byId('sample').append(...Object.keys(SAMPLES).map((name) => el('option', {value: name}, name)));
   fillForm(fragment);
-  robots = new Robots({run, beside, setCurrent, draw, clear, save, refuseFaces});
+  const page = {run, beside, setCurrent, draw, clear, save, refuseFaces};
+  batches = [new Robots(page), new Several(page)];
   document.documentElement.dataset.ready = 'yes';
   if (typeof WebAssembly !== 'object') return complain('This browser has no WebAssembly, which this page needs to build hulls. Use another browser, or the program prohull.');
   listen();

@@ -72,9 +72,9 @@ export function pieceName({stem, count}, i) {
 export function wanted(part) {
   const values = Object.fromEntries(Object.keys(DEFAULTS).map((name) => [name, kept(name)]));
   for (const name of ['faces', 'count', 'void']) check(name, RANGES[name === 'count' ? values.make : name]);
-  const make = part.levels ? 'level' : values.make, suffix = make === 'spheres' ? 'json' : values.to;
+  const make = part.make ?? values.make, suffix = make === 'spheres' ? 'json' : values.to;
   const own = stem(part.name).replace(/[{}]/g, '_');  // the command fills in {name}
-  return {...values, make, isTight: values.tight === '1', hasLevels: make === 'hull' && values.levels === '1' && canHaveLevels(), out: `${own}_${make}.${suffix}`, stem: own};
+  return {...values, make, isTight: values.tight === '1', hasLevels: !field('levels').labels[0].hidden && values.levels === '1', out: `${own}_${make}.${suffix}`, stem: own};
 }
 
 /** How the file of a part is read. */
@@ -125,6 +125,11 @@ const flags = (pairs) => pairs.filter(([, value]) => value !== '' && value !== f
 
 const levelCommand = (levels, out, faces) => `prohull lod ${quotedFile(levels)} -o ${out}${faces === null ? '' : ` --faces ${faces}`}`;
 
+const buildCommand = (want, files, out) => `prohull build ${files} -o ${out} ` +
+    flags([['--unit', want.unit], ['--faces', want.faces], ['--max-distance', want.distance], ['--max-void', want.void], ['--side', want.side === 'inner' && 'inner'],
+      ['--tight', want.isTight], ['--gap', want.gap], ['--open-shells', want.shells === 'keep' && 'keep'], ['--keep-cavities', want.cavities === '1'],
+      ['--hierarchy', want.hasLevels && plain(`${want.stem}.phull`)]]);
+
 /** What does the same; `faces` are those of a finer level, or null. */
 export function commandOf(want, part, faces) {
   const sample = part.sample ? `prohull sample ${part.sample} --faces ${part.sampleFaces} -o ${quotedFile(part.name)}\n` : '';
@@ -134,9 +139,9 @@ export function commandOf(want, part, faces) {
     return `${sample}prohull spheres ${file} -o ${out} ${flags([unit, ['--count', want.count], bounds[0]])}`;
   const each = isOneFile(want) ? '' : `# writes a file for each piece\n`;
   if (want.make === 'pieces') return `${sample}${each}prohull convex ${file} -o ${out} ${flags([unit, ['--pieces', want.count], ...bounds])}`;
-  const levels = `${want.stem}.phull`;
-  const build = `${sample}prohull build ${file} -o ${out} ` +
-      flags([unit, ['--faces', want.faces], ...bounds, ['--side', want.side === 'inner' && 'inner'], ['--tight', want.isTight], ['--gap', want.gap],
-        ['--open-shells', want.shells === 'keep' && 'keep'], ['--keep-cavities', want.cavities === '1'], ['--hierarchy', want.hasLevels && plain(levels)]]);
+  const levels = `${want.stem}.phull`, build = sample + buildCommand(want, file, out);
   return faces === null ? build : `${build}\n${levelCommand(levels, out, faces)}`;
 }
+
+/** What makes a hull of each of these files. */
+export const severalCommand = (want, files) => buildCommand(want, files.map(quotedFile).join(' '), `hulls/ --out-format ${want.to}`);

@@ -3,6 +3,7 @@
 import {strToU8, zipSync} from 'fflate';
 import * as prohull from 'prohull';
 import {atMost, byId, counted, el, grouped, percent} from '../../src/panel/dom.js';
+import {Hulls} from '../hulls.js';
 import {formText, robotOptions} from '../wanted.js';
 import {packagesOf} from './folder.js';
 import {planOf, scaled, whyLeft, withHulls} from './urdf.js';
@@ -17,7 +18,8 @@ const withoutViews = (key, value) => ArrayBuffer.isView(value) ? [...value] : va
 /** `page` has what main.js does: run, beside, setCurrent, draw, clear, save, refuseFaces. */
 export class Robots {
   #page;
-  #robot = null;  // {tree, packages, urdf, plan, outcomes, shown}: of the work whose hull is shown, what came of it
+  #robot = null;  // {tree, packages, urdf, plan, hulls}
+  kind = 'robot';  // of its options in the form
 
   constructor(page) {
     this.#page = page;
@@ -37,7 +39,7 @@ export class Robots {
   async open(tree, running) {
     const urdfs = [...tree.keys()].filter((path) => /\.urdf$/i.test(path)).sort();
     if (urdfs.length === 0)
-      throw new prohull.InputError('There is no .urdf file among these files. Drop meshes one at a time. SDF, MJCF and xacro files are read by the program prohull.');
+      throw new prohull.InputError('There is no .urdf file among these files, and no mesh that is read here. SDF, MJCF and xacro files are read by the program prohull.');
     byId('robot-file').replaceChildren(...urdfs.map((path) => el('option', {value: path}, path)));
     byId('robot-file').hidden = urdfs.length === 1;
     const packages = await packagesOf(tree);
@@ -46,7 +48,7 @@ export class Robots {
   }
 
   async #take({tree, packages, urdf}, running) {
-    const robot = this.#robot = {tree, packages, urdf, plan: null, outcomes: new Map()};
+    const robot = this.#robot = {tree, packages, urdf, plan: null, hulls: new Hulls(this.#page, [], null)};
     this.#page.clear('');
     byId('robot').hidden = byId('name').hidden = false;
     byId('name').textContent = urdf;
@@ -61,63 +63,32 @@ export class Robots {
       throw new prohull.InputError(`${urdf}: ${error instanceof TypeError ? 'it is no UTF-8 text' : error.message}`);
     }
     const {links, works} = robot.plan;
+    robot.hulls = new Hulls(this.#page, works.map((work) => Object.assign(work, {title: work.link})),
+        {mesh: (work, own) => this.#meshOf(tree, work, own), isOpen: () => robot === this.#robot, tell: () => this.#tell(),
+          verify: async (bytes, {out}, mesh, own) => prohull.verify(await prohull.read(bytes, out, {signal: own.signal}), mesh, {finiteOnly: true, ...own})});
     byId('found').textContent = `${counted(links.length, 'link', 'links')}, ${counted(works.length, 'mesh', 'meshes')}.`;
     await this.make(running);
   }
 
-  /** Makes all hulls anew. What is wrong with one mesh concerns its links alone. */
+  /** Makes all hulls anew. */
   async make(running) {
-    const robot = this.#robot, form = formText(), want = robotOptions();
-    if (!robot.plan) return;
+    const {plan, hulls} = this.#robot, form = formText(), {faces, share, options} = robotOptions();
+    if (!plan) return;
     this.#page.setCurrent(null);
-    robot.outcomes = new Map();
-    this.#tell();
-    const {works} = robot.plan;
-    for (const [i, work] of works.entries()) {
-      const progress = (stage, fraction) => running.progress(`mesh ${i + 1} of ${works.length}, of ${work.link}: ${stage}`, (i + fraction) / works.length);
-      const outcome = await this.#hulled(work, want, {signal: running.signal, progress}).catch((error) => ({why: error.message}));
-      running.signal.throwIfAborted();
-      robot.outcomes.set(work, outcome);
-      this.#tell();
-    }
-    const all = works.filter((work) => robot.outcomes.get(work).bytes), isShown = (work) => robot.outcomes.get(work) === robot.shown;
-    if (all.length > 0 && !all.some(isShown)) await this.#show(all[0], running);
+    await hulls.make(running, async (mesh) => ({faces, options: {...options, ...(share ? {maxDistance: await prohull.length(share, mesh)} : {})}}));
     this.#page.setCurrent(form);
   }
 
-  async #meshOf({path, scale}, running) {
-    const mesh = await prohull.read(await this.#robot.tree.get(path).read(), path, running);
+  async #meshOf(tree, {path, scale}, running) {
+    const mesh = await prohull.read(await tree.get(path).read(), path, running);
     this.#page.refuseFaces(path, mesh.faces.length / 3);
     return scaled(mesh, scale);
   }
 
-  /** {bytes} of a hull that the file as written certifies, or {why} there is none; and what is told of it. */
-  async #hulled(work, {faces, share, options}, running) {
-    const mesh = await this.#meshOf(work, running), bound = share ? {maxDistance: await prohull.length(share, mesh)} : {};
-    const hull = await prohull.build(mesh, faces, {...options, ...bound, summaryOf: work.out, ...running});
-    if (!hull.certified) return {why: 'no hull of it was certified', hull};
-    const bytes = await prohull.write(hull, work.out);
-    const verdict = await prohull.verify(await prohull.read(bytes, work.out, {signal: running.signal}), mesh, {finiteOnly: true, ...running});
-    return verdict.holds ? {bytes, hull, verdict} : {why: `its hull as written is not certified: ${verdict.whyNot}`, hull, verdict};
-  }
-
-  async #show(work, running = {}) {
-    const robot = this.#robot, outcome = robot.shown = robot.outcomes.get(work), {hull} = outcome;
-    const mesh = await this.#meshOf(work, running);
-    const scene = await prohull.scene({name: work.out, vertices: hull.vertices, faces: hull.faces}, {...mesh, name: work.path}, running);
-    if (robot !== this.#robot || outcome !== robot.shown) return;  // meanwhile another one was pressed
-    await this.#page.draw(scene, {});
-    for (const button of byId('links').querySelectorAll('button')) button.setAttribute('aria-pressed', button.dataset.hull === work.out);
-  }
-
   #row(link, work) {
-    const {outcomes, shown} = this.#robot, outcome = outcomes.get(work), {hull, why} = outcome ?? {};
-    if (!hull || why) return el('tr', {}, el('th', {scope: 'row'}, link.name), el('td', {colspan: 4}, why ?? '…'));
-    const show = () => this.#page.beside(() => this.#show(work));
-    const name = el('button', {'type': 'button', 'aria-pressed': String(outcome === shown), 'data-hull': work.out, 'title': work.path, 'onclick': show}, link.name);
-    return el('tr', {}, el('th', {scope: 'row'}, name), el('td', {}, grouped(hull.faces.length / 3)),
-        el('td', {}, Number.isFinite(hull.voidRatio) ? percent(hull.voidRatio) : '–'),
-        el('td', {}, `${atMost(1000 * (hull.distanceToSolid ?? hull.distanceToTriangles))}${hull.withinBounds ? '' : ' (NOT within the bound)'}`), el('td', {}, 'yes'));
+    return this.#robot.hulls.row(link.name, work, 4, (hull) => [grouped(hull.faces.length / 3),
+      Number.isFinite(hull.voidRatio) ? percent(hull.voidRatio) : '–',
+      `${atMost(1000 * (hull.distanceToSolid ?? hull.distanceToTriangles))}${hull.withinBounds ? '' : ' (NOT within the bound)'}`, 'yes']);
   }
 
   /** What `prohull urdf` notes of a hull, and what is proven of it where that is less than that it encloses the mesh. */
@@ -131,17 +102,17 @@ export class Robots {
   }
 
   #tell() {
-    const {plan, outcomes} = this.#robot, isDone = plan !== null && plan.works.every((work) => outcomes.has(work));
+    const {plan, hulls: {outcomes, isDone}} = this.#robot;
     const left = (plan?.links ?? []).filter(({why}) => why);
     byId('links').replaceChildren(...(plan?.links ?? []).filter(({why}) => !why)
         .flatMap((link) => [...new Set(link.shapes.flatMap(({work}) => work ?? []))].map((work) => this.#row(link, work))));
     byId('link-notes').replaceChildren(...(plan?.works ?? []).flatMap((work) => this.#notes(work, outcomes.get(work))));
     byId('left-out').replaceChildren(...left.map(({name, why}) => el('li', {}, `${name} keeps what it has: ${why}`)));
-    byId('save-robot').disabled = !isDone || withHulls(plan, outcomes).works.length === 0;
+    byId('save-robot').disabled = !plan || !isDone || withHulls(plan, outcomes).works.length === 0;
   }
 
   #report(name) {
-    const {plan: {links}, outcomes, urdf} = this.#robot;
+    const {plan: {links}, hulls: {outcomes}, urdf} = this.#robot;
     const hullOf = ({uri, scale, work}) => {
       const {hull: {vertices, faces, ...facts} = {}, verdict = null, why} = outcomes.get(work);
       return {file: why ? null : `meshes/collision/${work.out}`, why_not: why ?? null, mesh: uri, read_from: work.path, scale,
@@ -154,7 +125,7 @@ export class Robots {
   }
 
   #save() {
-    const {plan, outcomes, urdf} = this.#robot, name = plainName(urdf), made = withHulls(plan, outcomes);
+    const {plan, hulls: {outcomes}, urdf} = this.#robot, name = plainName(urdf), made = withHulls(plan, outcomes);
     const files = {[name]: strToU8(made.text), 'report.json': strToU8(this.#report(name))};
     for (const work of made.works) files[`meshes/collision/${work.out}`] = outcomes.get(work).bytes;
     this.#page.save(zipSync(files, {mtime: new Date(1980, 0, 1, 12)}), name.replace(/\.urdf$/i, '_hulls.zip'));
