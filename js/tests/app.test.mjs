@@ -466,6 +466,28 @@ test('the folder of a robot becomes a zip with a certified hull of each mesh, an
   await closed(page);
 });
 
+test('the hulls of a robot are of its collision meshes, if the form says so', {skip}, async () => {
+  const page = await opened({fragment: '#faces=60&from=collision'}), folder = join(scratch, 'two'), own = join(scratch, 'two_own');
+  mkdirSync(folder);
+  const mesh = (tag, file) => `<${tag}><geometry><mesh filename="${file}"/></geometry></${tag}>`;
+  run('sample', 'bracket', '--faces', '3000', '-o', join(folder, 'seen.stl'));
+  run('sample', 'torus', '--faces', '1000', '-o', join(folder, 'felt.stl'));
+  writeFileSync(join(folder, 'two.urdf'), `<robot name="two"><link name="a">${mesh('visual', 'seen.stl')}${mesh('collision', 'felt.stl')}</link></robot>`);
+  for (const [from, has] of [['collision', 'two/felt.stl'], ['visual', 'two/seen.stl']]) {
+    await (from === 'collision' ? droppedFolder(page, folder) : page.selectOption('#want-from', from));
+    await settled(page);
+    assert.equal(await text(page, 'problem'), '');
+    assert.match(await text(page, 'content'), new RegExp(`a_hull\\.stl encloses ${has}: decided exactly`));
+    const files = createRequire(import.meta.url)('fflate').unzipSync((await saved(page, 'save-robot')).bytes);
+    rmSync(own, {recursive: true, force: true});
+    run('urdf', join(folder, 'two.urdf'), '-o', own, '--from', from, '--faces', '60', '--configurations', '0', '--prove', '0', '--no-pictures', '--no-cache');
+    assert.equal(hash(files['meshes/collision/a_hull.stl']), hash(readFileSync(join(own, 'meshes/collision/a.stl'))), from);
+    assert.equal(JSON.parse(Buffer.from(files['report.json'])).links[0].from, from);
+  }
+  assert.ok(!/from=/.test(await page.evaluate(() => location.hash)), 'the default needs no place in the address');
+  await closed(page);
+});
+
 test('a robot of a stranger stays harmless', {skip}, async () => {
   const {strToU8, zipSync} = createRequire(import.meta.url)('fflate'), page = await opened({fragment: '#faces=100&distance=5'});
   const tetrahedron = strToU8('v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n'), html = '<img src=x onerror=alert(1)>';

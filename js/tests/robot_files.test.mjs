@@ -22,6 +22,16 @@ test('collision elements alone change, and all else stays byte for byte', () => 
       '<mesh filename="meshes/collision/a_hull.stl"/>\r\n\t\t  </geometry>\r\n\t\t</collision>\r\n\t\t<collision>\r\n\t\t  <geometry>\r\n\t\t\t<box size="1 1 1"/></geometry>\r\n\t\t</collision>' + after);
 });
 
+test('hulls of collision meshes take their places alone, and links without any keep what they have', () => {
+  const collision = (form) => `<collision><geometry>${form}</geometry></collision>`, box = collision('<box size="1 1 1"/>');
+  const links = (b, c) => `<link name="a">${visual(mesh('a.stl'))}</link><link name="b">${visual(mesh('a.stl'))}${box}${collision(b)}</link>` +
+      `<link name="c">${collision(c)}</link><link name="d">${visual(mesh('a.stl'))}${box}</link>`;
+  const plan = planOf(robot(links(mesh('b.stl', ' scale="2 2 2"'), mesh('b.stl'))), treeOf(['r/a.stl', 'r/b.stl']), 'collision');
+  assert.deepEqual(plan.works.map(({link, path, scale}) => [link, path, scale[0]]), [['b', 'r/b.stl', 2], ['c', 'r/b.stl', 1]]);
+  assert.deepEqual(plan.links.map(({why}) => why), ['its collision geometry has no mesh', null, null, 'its collision geometry has no mesh']);
+  assert.equal(withHulls(plan, made(plan)).text, robot(links(mesh('meshes/collision/b_hull.stl'), mesh('meshes/collision/c_hull.stl'))));
+});
+
 test('without collision elements, hulls stand behind the visual ones; without visual ones, meshes of collision elements are replaced', () => {
   const first = planned(`<link name="a">${visual(mesh('a.stl'))}<x/></link>`);
   assert.equal(withHulls(first, made(first)).text,

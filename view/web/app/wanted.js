@@ -4,7 +4,7 @@ import * as prohull from 'prohull';
 import {byId, grouped} from '../src/panel/dom.js';
 
 const DEFAULTS = {make: 'hull', faces: '500', count: '16', distance: '', void: '', side: 'outer', gap: '', shells: 'close', unit: '', tight: '0', cavities: '0',
-  levels: '1', to: 'stl'};
+  levels: '1', to: 'stl', from: 'visual'};
 const field = (name) => byId(`want-${name}`);
 const kept = (name) => field(name).type === 'checkbox' ? (field(name).checked ? '1' : '0') : field(name).value.trim();
 
@@ -116,7 +116,7 @@ export function robotOptions() {
   const [, number, unit] = /^([\d.]+)\s*(%|mm)?$/.exec(kept('distance')) ?? [];
   if (kept('distance') !== '' && !(Number(number) > 0)) refuse('distance', `expected millimetres, or a share of the diagonal, as 1%, not ${kept('distance')}`);
   const isShare = unit === '%', bounds = number === undefined || isShare ? {} : {maxDistance: Number(number) / 1000};
-  return {faces: Number(kept('faces')), share: isShare ? `${number}%` : null,
+  return {from: kept('from'), faces: Number(kept('faces')), share: isShare ? `${number}%` : null,
     options: {tight: kept('tight') === '1', float32Coordinates: true, relaxGuards: true, ...bounds}};
 }
 

@@ -18,7 +18,7 @@ const withoutViews = (key, value) => ArrayBuffer.isView(value) ? [...value] : va
 /** `page` has what main.js does: run, beside, setCurrent, draw, clear, save, refuseFaces. */
 export class Robots {
   #page;
-  #robot = null;  // {tree, packages, urdf, plan, hulls}
+  #robot = null;  // {tree, packages, urdf, text, plan, hulls}
   kind = 'robot';  // of its options in the form
 
   constructor(page) {
@@ -48,7 +48,7 @@ export class Robots {
   }
 
   async #take({tree, packages, urdf}, running) {
-    const robot = this.#robot = {tree, packages, urdf, plan: null, hulls: new Hulls(this.#page, [], null)};
+    const robot = this.#robot = {tree, packages, urdf, text: null, plan: null, hulls: new Hulls(this.#page, [], null)};
     this.#page.clear('');
     byId('robot').hidden = byId('name').hidden = false;
     byId('name').textContent = urdf;
@@ -58,24 +58,34 @@ export class Robots {
     const bytes = await tree.get(urdf).read();
     running.signal.throwIfAborted();
     try {
-      robot.plan = planOf(text8(bytes), {robot: urdf, paths: new Set(tree.keys()), packages});
-    } catch (error) {
-      throw new prohull.InputError(`${urdf}: ${error instanceof TypeError ? 'it is no UTF-8 text' : error.message}`);
+      robot.text = text8(bytes);
+    } catch {
+      throw new prohull.InputError(`${urdf}: it is no UTF-8 text`);
     }
-    const {links, works} = robot.plan;
-    robot.hulls = new Hulls(this.#page, works.map((work) => Object.assign(work, {title: work.link})),
-        {mesh: (work, own) => this.#meshOf(tree, work, own), isOpen: () => robot === this.#robot, tell: () => this.#tell(),
-          verify: async (bytes, {out}, mesh, own) => prohull.verify(await prohull.read(bytes, out, {signal: own.signal}), mesh, {finiteOnly: true, ...own})});
-    byId('found').textContent = `${counted(links.length, 'link', 'links')}, ${counted(works.length, 'mesh', 'meshes')}.`;
     await this.make(running);
+  }
+
+  #plan(robot, from) {
+    const {tree, packages, urdf, text} = robot;
+    try {
+      robot.plan = planOf(text, {robot: urdf, paths: new Set(tree.keys()), packages}, from);
+    } catch (error) {
+      throw new prohull.InputError(`${urdf}: ${error.message}`);
+    }
+    const {links, works} = robot.plan, hulls = robot.hulls = new Hulls(this.#page, works.map((work) => Object.assign(work, {title: work.link})),
+        {mesh: (work, running) => this.#meshOf(tree, work, running), isOpen: () => hulls === this.#robot?.hulls, tell: () => this.#tell(),
+          verify: async (bytes, {out}, mesh, running) =>
+            prohull.verify(await prohull.read(bytes, out, {signal: running.signal}), mesh, {finiteOnly: true, ...running})});
+    byId('found').textContent = `${counted(links.length, 'link', 'links')}, ${counted(works.length, 'mesh', 'meshes')}.`;
   }
 
   /** Makes all hulls anew. */
   async make(running) {
-    const {plan, hulls} = this.#robot, form = formText(), {faces, share, options} = robotOptions();
-    if (!plan) return;
+    const robot = this.#robot, form = formText(), {from, faces, share, options} = robotOptions();
+    if (robot.text === null) return;
     this.#page.setCurrent(null);
-    await hulls.make(running, async (mesh) => ({faces, options: {...options, ...(share ? {maxDistance: await prohull.length(share, mesh)} : {})}}));
+    this.#plan(robot, from);
+    await robot.hulls.make(running, async (mesh) => ({faces, options: {...options, ...(share ? {maxDistance: await prohull.length(share, mesh)} : {})}}));
     this.#page.setCurrent(form);
   }
 

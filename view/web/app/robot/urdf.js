@@ -46,22 +46,22 @@ function shapeOf(element) {
   return scale ? {element, geometry, mesh: form, uri, scale} : {why: `the scale of ${uri} is not three numbers other than 0`};
 }
 
-function linkOf(element) {
-  const link = {name: element.attributes.get('name'), element, from: 'visual', shapes: [], why: null};
+function linkOf(element, from) {
+  const link = {name: element.attributes.get('name'), element, from, shapes: [], why: null};
   if (childrenCalled(element, 'visual').length === 0) link.from = 'collision';
   link.shapes = childrenCalled(element, link.from).map(shapeOf);
   link.why = link.shapes.find(({why}) => why)?.why ?? (link.shapes.some(({uri}) => uri) ? null : `its ${link.from} geometry has no mesh`);
   return link;
 }
 
-function linksOf(text) {
+function linksOf(text, from) {
   const root = parseXml(text), names = new Set(), all = [root];
   for (let element; (element = all.pop());) {
     if (element.name.startsWith('xacro:')) throw new UrdfError(text, element.begin, 'xacro is not read here; the program prohull expands it');
     all.push(...element.children);
   }
   if (root.name !== 'robot') throw new UrdfError(text, root.begin, `<${root.name}> is no URDF; the program prohull also reads SDF and MJCF`);
-  const links = childrenCalled(root, 'link').map(linkOf);
+  const links = childrenCalled(root, 'link').map((link) => linkOf(link, from));
   for (const {name, element} of links) {
     if (!name) throw new UrdfError(text, element.begin, 'a link has no name');
     if (names.has(name)) throw new UrdfError(text, element.begin, `there are two links called ${name}`);
@@ -77,9 +77,10 @@ function fileOf(uri, tree) {
 }
 
 /** {text, links, works}: a work is a hull, and the shapes of links name theirs. Links with the same mesh and scale share it. A link that
- * cannot have all of its hulls has none, and says why. `tree` is {robot, paths, packages}, as placeOf takes it. */
-export function planOf(text, tree) {
-  const links = linksOf(text), works = new Map();
+ * cannot have all of its hulls has none, and says why. `tree` is {robot, paths, packages}, as placeOf takes it; `from` is the geometry that
+ * hulls are made of: visual, or collision where a link has nothing else, or collision. */
+export function planOf(text, tree, from = 'visual') {
+  const links = linksOf(text, from), works = new Map();
   const beside = tree.robot.slice(0, tree.robot.lastIndexOf('/') + 1) + 'meshes/collision/';
   const name = fileNames([...tree.paths].filter((path) => path.startsWith(beside)).map((path) => path.slice(beside.length)));
   for (const link of links.filter(({why}) => !why)) {
