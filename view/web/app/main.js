@@ -350,13 +350,13 @@ const saveCertificate = async () => {
     ...(maxDistance === undefined ? {} : {maxDistance})}), `${want.stem}_hull.phcert`);
 };
 
-async function copyCommand() {
-  const text = byId('command').textContent;
+async function copyCommand({target}) {
+  const command = byId(target.dataset.copies);
   try {
-    await navigator.clipboard.writeText(text);
-    byId('copy').textContent = 'Copied';
+    await navigator.clipboard.writeText(command.textContent);
+    target.textContent = 'Copied';
   } catch {
-    getSelection().selectAllChildren(byId('command'));
+    getSelection().selectAllChildren(command);
   }
 }
 
@@ -390,7 +390,7 @@ function listen() {
   byId('cancel').onclick = () => job?.abort();
   for (const [id, saving] of [['save', saveHull], ['save-levels', saveLevels], ['save-certificate', saveCertificate]])
     byId(id).onclick = () => beside(saving);
-  byId('copy').onclick = copyCommand;
+  for (const button of document.querySelectorAll('[data-copies]')) button.onclick = copyCommand;
   const over = (is) => (event) => {
     event.preventDefault();
     byId('stage').classList.toggle('over', is);
