@@ -123,7 +123,8 @@ val level(const val& levels, double faces, const val& given, const val& progress
 /// Of the bytes of a .phull file.
 val read_levels(const val& bytes, const std::string& name) {
   const auto content = emscripten::convertJSArrayToNumberVector<unsigned char>(bytes);
-  return object_of_levels(load_hull(std::string_view(reinterpret_cast<const char*>(content.data()), content.size()), name));
+  return object_of_levels(
+      load_hull(std::string_view(reinterpret_cast<const char*>(content.data()), content.size()), name));
 }
 
 /// The bytes of a .phull file.

@@ -289,10 +289,9 @@ std::array<std::string, kTableHead.size()> cells_of_hull(const ToldHull& told, c
 }
 
 std::vector<std::string> lines_of_level(const std::string& name, const ToldLevel& told) {
-  std::vector<std::string> lines{
-      fmt::format("{}: {} of {}{}", name, counted(told.faces, "face"), grouped(told.hull.original_face_count()),
-                  told.target_faces != 0 && told.faces > told.target_faces ? ", which is the coarsest level of the file"
-                                                                           : "")};
+  std::vector<std::string> lines{fmt::format(
+      "{}: {} of {}{}", name, counted(told.faces, "face"), grouped(told.hull.original_face_count()),
+      told.target_faces != 0 && told.faces > told.target_faces ? ", which is the coarsest level of the file" : "")};
   if (const std::string finest = described_finest_level(told.hull.finest_level()); !finest.empty())
     lines.push_back(fmt::format("the finest level of the file is {}, not the input itself", finest));
   lines.push_back("certified: " + certificate_of(told));

@@ -85,8 +85,8 @@ std::array<std::string, kTableHead.size()> cells_of_hull(const ToldHull& told, c
 /// A level of a hull, as a file holds it.
 struct ToldLevel {
   const ProgressiveHull& hull;
-  std::size_t target_faces;                 ///< that were asked for; 0: the coarsest level was
-  std::size_t faces;                        ///< that the level has
+  std::size_t target_faces;                  ///< that were asked for; 0: the coarsest level was
+  std::size_t faces;                         ///< that the level has
   const std::optional<Verification>& found;  ///< against the finest level, unless the file holds that, bit for bit
 };
 

@@ -147,6 +147,7 @@ function forget() {
   for (const id of ['result', 'name']) byId(id).hidden = true;
   byId('found').textContent = byId('sample').value = '';
   part = made = current = null;
+  clearTimeout(resting);
   for (const batch of batches) batch.close();
   showOptions();
   clear(WELCOME);
