@@ -209,6 +209,9 @@ test('options make what the command line makes of them', {skip}, async () => {
 });
 
 test('the unit of the file, open shells and cavities are as the command has them, and stand in the address', {skip}, async () => {
+  const plain = await opened();
+  assert.ok(await plain.isHidden('#want-unit'), 'seldom options are folded, unless the address has them');
+  await closed(plain);
   const page = await opened({fragment: '#shells=keep&unit=mm&cavities=1&faces=60&gap=5mm&to=obj'}), part = join(scratch, 'case.off');
   const cube = (least, most) => [...Array(8).keys()].map((i) => [i & 1, i >> 1 & 1, i >> 2].map((bit) => bit ? most : least).join(' ')).join('\n');
   const sides = [[0, 2, 3], [0, 3, 1], [0, 1, 5], [0, 5, 4], [1, 3, 7], [1, 7, 5], [3, 2, 6], [3, 6, 7], [2, 0, 4], [2, 4, 6], [4, 5, 7], [4, 7, 6]];
@@ -625,7 +628,7 @@ test('memory returns after ten parts', {skip}, async () => {
 });
 
 test('on a phone, by keys, in the dark', {skip}, async () => {
-  const page = await opened({width: 390, height: 800, scheme: 'dark', fragment: '#sample=torus'});
+  const page = await opened({width: 390, height: 800, scheme: 'dark', fragment: '#sample=torus&unit=m'});
   await settled(page);
   const inside = () => page.evaluate(() => document.documentElement.scrollWidth <= innerWidth);
   assert.ok(await inside());

@@ -23,6 +23,7 @@ export function fillForm(values) {
     else field(name).value = values[name];
     if (field(name).value === '' || !field(name).checkValidity()) field(name).value = DEFAULTS[name];
   }
+  byId('more').open = Object.keys(DEFAULTS).some((name) => byId('more').contains(field(name)) && kept(name) !== DEFAULTS[name]);
   showOptions();
 }
 
