@@ -27,13 +27,6 @@ std::string escaped(const std::string& text, std::string_view special) {
   return result;
 }
 
-/// In single quotes, as every POSIX shell reads them; with fish the text must have no backslash.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
-}
-
 /// ".ply", ".obj" as "ply|obj"
 std::string any_of_extensions(const std::vector<std::string>& extensions) {
   std::string result;

@@ -33,6 +33,17 @@ std::string one_line(std::string_view text) {
   return printable(line);
 }
 
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+std::string shell_word(const std::string& text) {
+  constexpr std::string_view kSpecial = " \t\n\\'\"`$&|;<>()[]{}*?!#~=%^";
+  return text.empty() || text.find_first_of(kSpecial) != text.npos ? quoted(text) : text;
+}
+
 void tell_error(std::string_view what) { tell("prohull: " + one_line(what) + "\n", stderr); }
 
 ProgressLine::~ProgressLine() {

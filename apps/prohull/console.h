@@ -31,6 +31,12 @@ void tell(std::string_view text, std::FILE* to);
 /// What is printable, on one line: new lines and tabs, as names may have them, become "\\x0a" and "\\x09".
 std::string one_line(std::string_view text);
 
+/// In single quotes, as every POSIX shell reads them; with fish the text must have no backslash.
+std::string quoted(const std::string& text);
+
+/// The text as one word of a command line, quoted if a shell would not take it as it is.
+std::string shell_word(const std::string& text);
+
 /// Tells an error on one line of standard error.
 void tell_error(std::string_view what);
 

@@ -16,8 +16,8 @@ namespace {
 using namespace prohull::robot;
 
 std::string millimetres(double length) { return fmt::format("{:.6g} mm", 1000 * length); }
-std::string at_most(double length) { return fmt::format("{:.3g} mm", rounded_up(1000 * length, 3)); }
-std::string at_least(double length) { return fmt::format("{:.3g} mm", rounded_down(1000 * length, 3)); }
+std::string at_most(double length) { return fmt::format("{:.3g} mm", 1000 * rounded_up(length, 3)); }
+std::string at_least(double length) { return fmt::format("{:.3g} mm", 1000 * rounded_down(length, 3)); }
 
 /// Columns as wide as their widest cell; the first is aligned to the left.
 class Table {
@@ -79,11 +79,8 @@ std::string notes_text(const std::string& link, const LinkHull& hull, bool has_o
 
 /// A line with the number of links, what holds of them, and the first names.
 std::string links_text(std::span<const std::string> links, std::string_view one, std::string_view many) {
-  constexpr std::size_t kMostNamed = 5;
   if (links.empty()) return "";
-  const auto named = links.first(std::min(links.size(), kMostNamed));
-  return fmt::format("  {}: {}{}\n", counted(links.size(), one, many), fmt::join(named, ", "),
-                     links.size() > kMostNamed ? fmt::format(", and {} more", grouped(links.size() - kMostNamed)) : "");
+  return fmt::format("  {}: {}\n", counted(links.size(), one, many), first_of(links));
 }
 
 /// Nothing else in the summary is about these links.
@@ -121,36 +118,27 @@ std::string hulls_text(const ReportInput& facts) {
 }
 
 /// How a link stands, as a word of the table, and where links are counted.
-struct Standing {
+struct StandingWords {
   std::string_view word, counted;
 };
 
-Standing standing(const LinkCheck& check, double allow) {
-  constexpr Standing kAllowed{"within the allowance", "within the allowance"};
-  switch (check.verdict) {
-    case CheckVerdict::Covered:
-      return {"covered", "covered"};
-    case CheckVerdict::Leaks:
-      return passes(check, allow) ? kAllowed : Standing{"LEAKS", "leaking"};
-    case CheckVerdict::Undecided:
-      if (check.sticks_out_at_most <= allow) return kAllowed;
-      return passes(check, allow) ? Standing{"covered, but for rounding", "covered"}
-                                  : Standing{"UNDECIDED", "undecided"};
-    case CheckVerdict::NoCollision:
-      return {"NO COLLISION GEOMETRY", "without collision geometry"};
-    case CheckVerdict::NoVisual:
-      return {"no visual geometry", ""};
-    case CheckVerdict::Missing:
-      return {"NOT CHECKED", "not checked"};
-  }
-  return {};
+StandingWords words_for(const LinkCheck& check, double allow) {
+  static constexpr StandingWords kWords[]{{"covered", "covered"},
+                                          {"covered, but for rounding", "covered"},
+                                          {"within the allowance", "within the allowance"},
+                                          {"LEAKS", "leaking"},
+                                          {"UNDECIDED", "undecided"},
+                                          {"NO COLLISION GEOMETRY", "without collision geometry"},
+                                          {"no visual geometry", ""},
+                                          {"NOT CHECKED", "not checked"}};
+  return kWords[static_cast<std::size_t>(standing(check, allow))];
 }
 
 /// "3 links covered, 3 leaking, 1 undecided": of all links with something to cover; empty if there are none.
 std::string counts_text(std::span<const LinkCheck> checks, double allow) {
   const auto count = [&](std::string_view word) {
     return static_cast<std::size_t>(
-        std::ranges::count(checks, word, [&](const LinkCheck& check) { return standing(check, allow).counted; }));
+        std::ranges::count(checks, word, [&](const LinkCheck& check) { return words_for(check, allow).counted; }));
   };
   if (count("") == checks.size()) return "";
   std::string text = counted(count("covered"), "link") + " covered";
@@ -218,7 +206,7 @@ std::string motion_certificate_text(const std::filesystem::path& folder, const R
   if (file.empty()) return "";
   return fmt::format("  {}: certificate of {} of {}; to check it: prohull_check_motion {}\n", file.string(), pairs,
                      counted(verdicts_of(*facts.motion).never, "pair that never meets", "pairs that never meet"),
-                     (folder / file).string());
+                     shell_word((folder / file).string()));
 }
 
 /// MuJoCo collides with the convex hull of a mesh. That of a hull has at least the volume of the link's own.
@@ -304,7 +292,7 @@ Plan plan_of(const Link& link, const LinkHullOptions& options) {
 /// An argument of --allow with which what sticks out passes.
 std::string allowance_text(double length) {
   constexpr double kMicrometre = 1e-6;
-  return fmt::format("{:.3g}mm", rounded_up(1000 * std::max(length, kMicrometre), 3));
+  return fmt::format("{:.3g}mm", 1000 * rounded_up(std::max(length, kMicrometre), 3));
 }
 
 void say_notes(const RobotFile& file, const LinkCheck& check, double allow) {
@@ -375,25 +363,21 @@ void say_check(const RobotFile& file, std::span<const LinkCheck> checks, double 
     if (robot::was_measured(check))
       table.add({name, leak_text(check), ratio(check.collision_volume, check.visual_volume),
                  ratio(check.collision_volume, check.convex_volume), at_most(check.reach.upper),
-                 std::string(standing(check, allow).word)});
+                 std::string(words_for(check, allow).word)});
     else
-      table.add({name, "", "", "", "", std::string(standing(check, allow).word)});
+      table.add({name, "", "", "", "", std::string(words_for(check, allow).word)});
   }
   say("{}", table.text());
   for (const LinkCheck& check : checks) say_notes(file, check, allow);
   const auto failed = std::ranges::count_if(checks, [&](const LinkCheck& check) { return !passes(check, allow); });
   const auto missing = std::ranges::count(checks, CheckVerdict::Missing, &LinkCheck::verdict);
-  const bool rounds = std::ranges::count(checks, CheckVerdict::Undecided, &LinkCheck::verdict) > 0;
   if (failed == 0)
-    say("yes: the collision geometry covers the visual geometry of every link{}\n",
-        allow > 0 ? ", or lets it stick out by at most " + millimetres(allow)
-        : rounds  ? ", but for rounding"
-                  : ", exactly");
+    say("yes: the collision geometry {}\n", passing_text(checks, allow));
   else
     say("NO: {}{}\n", counts_text(checks, allow),
-        failed == missing ? ""
-                          : fmt::format("; `prohull urdf {} -o DIR` makes collision meshes that cover all of them",
-                                        file.path.string()));
+        missing > 0 ? ""
+                    : fmt::format("; `prohull urdf {} -o DIR` makes collision meshes that cover all of them",
+                                  shell_word(file.path.string())));
 }
 
 void say_disabled(const Robot& robot, const std::string& file, std::span<const DisabledCheck> checks) {

@@ -246,11 +246,7 @@ std::string package_text(const std::map<path, path>& copies, const std::set<std:
   std::set<path> made;
   for (const auto& [source, copy] : copies) made.insert(copy);
   std::string text = fmt::format("  copies for the package: {} that the robot names\n", counted(made.size(), "file"));
-  constexpr std::size_t kMostTold = 5;
-  const auto end = std::next(left.begin(), static_cast<std::ptrdiff_t>(std::min(left.size(), kMostTold)));
-  if (!left.empty())
-    text += fmt::format("  not copied, and named as before: {}{}\n", fmt::join(left.begin(), end, ", "),
-                        left.size() > kMostTold ? fmt::format(", and {} more", left.size() - kMostTold) : "");
+  if (!left.empty()) text += fmt::format("  not copied, and named as before: {}\n", first_of(left));
   return text;
 }
 

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "robot/files/inertial.h"
 #include "robot/files/mjcf_model.h"
@@ -25,14 +26,6 @@ std::string pose_text(const Pose& pose) {
   std::string text;
   for (const auto& [key, value] : mjcf_attributes_of(pose)) text += fmt::format(" {}=\"{}\"", key, value);
   return text;
-}
-
-/// The first names, and how many others there are.
-std::string named(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 5;
-  const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), kMost));
-  return fmt::format("{}{}", fmt::join(names.begin(), end, ", "),
-                     names.size() > kMost ? fmt::format(", and {} more", names.size() - kMost) : "");
 }
 
 /// Whether the joint holds its child where it is.
@@ -65,6 +58,10 @@ class MjcfRobotWriter {
 
   MjcfRobot write(std::span<const std::pair<std::size_t, std::size_t>> apart) {
     const auto root = std::ranges::find(above_, nullptr) - above_.begin();
+    if (deepest() > kDeepest)
+      throw InputError(Defect::InvalidOption, fmt::format("{}: more than {} links hang below each other, and MuJoCo "
+                                                          "reads no elements that are nested so deep",
+                                                          document_.file(), kDeepest));
     add_body(static_cast<std::size_t>(root), 1);
     std::string contacts, equalities;
     for (const auto& [a, b] : apart)
@@ -101,14 +98,21 @@ class MjcfRobotWriter {
 
   std::string body_name(std::size_t link) const {
     const std::string& name = robot_.links[link].name;
-    return name == "world" && !is_world(link) ? "world_link" : xml_escaped(name);
+    return xml_escaped(name == "world" && !is_world(link) ? world_link() : name);
+  }
+
+  std::string world_link() const {
+    return unused("world_link",
+                  [&](const std::string& name) { return std::ranges::count(robot_.links, name, &Link::name) > 0; });
+  }
+
+  template <class IsUsed>
+  static std::string unused(std::string name, IsUsed is_used) {
+    while (is_used(name)) name += '_';
+    return name;
   }
 
   void add_body(std::size_t link, std::size_t depth) {
-    if (depth > kDeepest)
-      throw InputError(Defect::InvalidOption, fmt::format("{}: more than {} links hang below each other, and MuJoCo "
-                                                          "reads no elements that are nested so deep",
-                                                          document_.file(), kDeepest));
     const std::string indent(2 * depth + 2, ' ');
     if (is_world(link)) {
       bodies_ += geoms(link, indent);
@@ -160,6 +164,15 @@ class MjcfRobotWriter {
     return std::nullopt;
   }
 
+  /// How many bodies are in each other at most, with the link. Parents come before their children in Robot::joints.
+  std::size_t deepest() const {
+    std::vector<std::size_t> depth(links_.size(), 1);
+    std::size_t most = 1;
+    for (const Joint& joint : robot_.joints)
+      most = std::max(most, depth[joint.child] = depth[joint.parent] + !is_world(joint.parent));
+    return most;
+  }
+
   // Joints
 
   void add_joint(const Joint& joint, const std::string& indent) {
@@ -170,7 +183,7 @@ class MjcfRobotWriter {
     const std::string rest = range(joint) + dynamics(joint);
     const Pose plane = joint.type == JointType::Planar ? turn_of_z_to(joint.axis) : Pose{};
     const auto along = [&](const Vec3& axis, const char* suffix) {
-      add("slide", joint.name + suffix, placed(plane, axis), rest);
+      add("slide", joint_name(joint.name + suffix), placed(plane, axis), rest);
     };
     switch (joint.type) {
       case JointType::Fixed:
@@ -182,7 +195,7 @@ class MjcfRobotWriter {
         return add("slide", joint.name, joint.axis, rest);
       case JointType::Planar:
         along({1, 0, 0}, "_TX"), along({0, 1, 0}, "_TY");
-        return add("hinge", joint.name + "_RZ", joint.axis, rest);
+        return add("hinge", joint_name(joint.name + "_RZ"), joint.axis, rest);
       case JointType::Floating:
         if (is_world(joint.parent)) {
           bodies_ += fmt::format("{}<freejoint name=\"{}\"/>\n", indent, xml_escaped(joint.name));
@@ -193,6 +206,13 @@ class MjcfRobotWriter {
       case JointType::Ball:
         bodies_ += fmt::format("{}<joint name=\"{}\" type=\"ball\"{}/>\n", indent, xml_escaped(joint.name), rest);
     }
+  }
+
+  /// Of a joint that MuJoCo has in place of a part of another one.
+  std::string joint_name(std::string name) {
+    name = unused(std::move(name), [&](const std::string& used) { return joints_.contains(used); });
+    joints_.emplace(name, nullptr);
+    return name;
   }
 
   static std::string range(const Joint& joint) {
@@ -309,12 +329,13 @@ class MjcfRobotWriter {
     for (const Joint& joint : robot_.joints)
       if (joint.type != JointType::Fixed && is_locked(joint)) locked.push_back(joint.name);
     const auto note = [&](const char* what, const std::vector<std::string>& names) {
-      if (!names.empty()) notes_.push_back(fmt::format("{}: {}", what, named(names)));
+      if (!names.empty()) notes_.push_back(fmt::format("{}: {}", what, first_of(names)));
     };
     const auto world = std::ranges::find(robot_.links, "world", &Link::name);
     if (world != robot_.links.end()) {
       const auto link = static_cast<std::size_t>(world - robot_.links.begin());
-      if (!is_world(link)) notes_.emplace_back("the link world is the body world_link: MuJoCo has a world of its own");
+      if (!is_world(link))
+        notes_.push_back(fmt::format("the link world is the body {}: MuJoCo has a world of its own", world_link()));
       if (is_world(link) && inertials_[link]) left_out_.insert("the mass of world");
     }
     note("not in it", {left_out_.begin(), left_out_.end()});

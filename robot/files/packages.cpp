@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "prohull/detail/percents.h"
+#include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "robot/files/xml.h"
 
@@ -128,9 +129,9 @@ fs::path package_around(const fs::path& lowest) {
 
 /// Whether a file is in a folder, wherever symbolic links lead.
 bool is_in(const fs::path& file, const fs::path& folder) {
-  std::error_code error;
-  const fs::path root = fs::weakly_canonical(folder, error), place = fs::weakly_canonical(file, error);
-  return !error && std::ranges::mismatch(root, place).in1 == root.end();
+  std::error_code no_folder, no_file;
+  const fs::path root = fs::weakly_canonical(folder, no_folder), place = fs::weakly_canonical(file, no_file);
+  return !no_folder && !no_file && std::ranges::mismatch(root, place).in1 == root.end();
 }
 
 /// The file that a path names as it is written, or with its %20 decoded.
@@ -213,10 +214,7 @@ std::string Packages::looked_in() const {
   places.push_back(fmt::format("{} and the folders above it", folder_.string()));
   for (const fs::path& path : environment_paths_) places.push_back(path.string());
   for (const fs::path& prefix : prefixes_) places.push_back((prefix / "share").string());
-  const std::size_t shown = std::min(places.size(), kMostPlacesInMessages);
-  std::string text = fmt::format("{}", fmt::join(places.begin(), places.begin() + std::ptrdiff_t(shown), ", "));
-  if (shown < places.size()) text += fmt::format(", and {} more", places.size() - shown);
-  return text;
+  return first_of(places, kMostPlacesInMessages);
 }
 
 void Packages::find_in_package(std::string_view inside, std::string_view scheme, MeshFile& mesh) const {
@@ -301,7 +299,7 @@ std::string Packages::uri_from(const fs::path& folder, const MeshFile& mesh) con
   std::error_code error;
   const fs::path found = found_from(folder, mesh.uri);
   if (!found.empty() && fs::equivalent(found, mesh.path, error)) return mesh.uri;
-  const fs::path relative = fs::relative(mesh.path, fs::absolute(folder), error);  // it may not be there yet
+  const fs::path relative = fs::relative(mesh.path, fs::absolute(folder / "."), error);  // it may not be there yet
   return error || relative.empty() ? mesh.path.string() : relative.generic_string();
 }
 

@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "robot/mimics.h"
 #include "robot/transform.h"
@@ -92,6 +93,7 @@ class UrdfReader {
     joint_elements_ = root.children_called("joint");
     for (const XmlElement* element : joint_elements_) joint_names_.add(*element);
     for (const XmlElement* element : joint_elements_) read_joint(*element);
+    note_still_joints();
     refuse_loops_of_mimics();
     sort_joints();
     return {std::move(robot_), RobotFormat::Urdf, document_.file(), document_.text(), std::move(notes_)};
@@ -223,12 +225,21 @@ class UrdfReader {
       document_.refuse(element, fmt::format("joint '{}' has no <limit>, which revolute and prismatic joints need; a "
                                             "joint that turns without end is continuous",
                                             joint.name));
+    if (!limit->attribute("lower") && !limit->attribute("upper")) still_.push_back(joint.name);
     joint.lower = limit_of(*limit, "lower"), joint.upper = limit_of(*limit, "upper");
     if (joint.lower <= joint.upper) return;
     std::swap(joint.lower, joint.upper);
     notes_.push_back(
         fmt::format("line {}: the lower limit of joint '{}' is above its upper one; the two were exchanged",
                     limit->line, joint.name));
+  }
+
+  void note_still_joints() {
+    if (!still_.empty())
+      notes_.push_back(fmt::format(
+          "{} whose <limit> has neither lower nor upper, which URDF reads as 0 to 0: {} there: "
+          "{}",
+          counted(still_.size(), "joint"), still_.size() == 1 ? "it stays" : "they stay", first_of(still_)));
   }
 
   /// Tools write 1.79769e+308 for no limit.
@@ -334,7 +345,7 @@ class UrdfReader {
   NameTable link_names_, joint_names_;
   std::vector<const XmlElement*> joint_elements_;
   Robot robot_;
-  std::vector<std::string> notes_;
+  std::vector<std::string> notes_, still_;  // `still_`: names of joints without limits
 };
 
 }  // namespace

@@ -13,11 +13,16 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
 
-double rounded_to(double value, int decimals, Rounded rounded) {
-  const double scale = std::pow(10., decimals), scaled = value * scale, nearest = std::round(scaled);
-  constexpr double kRounding = 1e-9;  // of the product, which is not shown
-  if (rounded == Rounded::Nearest || std::abs(scaled - nearest) <= kRounding * nearest) return nearest / scale;
-  return (rounded == Rounded::Up ? std::ceil(scaled) : std::floor(scaled)) / scale;
+double rounded_to(double value, int digits, Rounded rounded) {
+  switch (rounded) {
+    case Rounded::Nearest:
+      break;
+    case Rounded::Up:
+      return rounded_up(value, digits);
+    case Rounded::Down:
+      return rounded_down(value, digits);
+  }
+  return nearest_of_digits(value, digits);
 }
 
 struct Unit {
@@ -32,10 +37,12 @@ Unit unit_of(double metres) {
 }
 
 std::string number_in(const Unit& unit, double metres, Rounded rounded) {
-  const double value = metres / unit.metres;
-  if (!(value > 0)) return "0";
-  const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(value))), 0, 12);
-  return fmt::format("{:.{}f}", rounded_to(value, decimals, rounded), decimals);
+  if (!(metres > 0)) return "0";
+  constexpr int kDigits = 3, kMostDecimals = 12;
+  const int whole = static_cast<int>(std::floor(std::log10(metres / unit.metres))) + 1;
+  const double value = rounded_to(metres, std::max(kDigits, whole), rounded) / unit.metres;  // moves the decimal point
+  if (kDigits - whole > kMostDecimals) return fmt::format("{:.{}e}", value, kDigits - 1);
+  return fmt::format("{:.{}f}", value, std::max(kDigits - whole, 0));
 }
 
 bool is_hull(const LinkHull& hull) { return hull.pieces.empty() && hull.balls.empty(); }
@@ -85,16 +92,20 @@ std::string sum_up_hulls(const Totals& totals, std::string_view geometry, std::s
                        totals.hulled - totals.certified == 1 ? "is" : "are");
   const std::string_view cover = covers == "hulls" ? "hull" : covers;
   const std::string_view point = totals.non_finite_faces > 0 ? "no point of a finite triangle" : "no point";
+  const bool all = totals.hulled == totals.links;
   if (totals.hulled == 1)
-    return fmt::format("The one link is certified: {} of its {} lies outside of its {}.", point, geometry, cover);
+    return fmt::format("The one link {}is certified: {} of its {} lies outside of its {}.",
+                       all                 ? ""
+                       : covers == "hulls" ? "with a hull "
+                                           : fmt::format("with {} ", covers),
+                       point, geometry, cover);
   return fmt::format("All {} {}are certified: {} of their {} lies outside of its {}.", hulled,
-                     totals.hulled == totals.links ? "" : fmt::format("with {} ", covers), point, geometry, cover);
+                     all ? "" : fmt::format("with {} ", covers), point, geometry, cover);
 }
 
-Finding finding_of_checks(const Totals& totals) {
+Finding finding_of_checks(const Totals& totals, const ReportInput& input) {
   if (totals.passed == totals.checked)
-    return {true, fmt::format("The shipped collision geometry covers the visual geometry of {}.",
-                              totals.checked == 1 ? "the one link" : fmt::format("all {} links", totals.checked))};
+    return {true, fmt::format("The shipped collision geometry {}.", passing_text(input.shipped, input.allow))};
   std::string text = fmt::format("The shipped collision geometry does not cover {} of {}",
                                  totals.checked - totals.passed - totals.unchecked, counted(totals.checked, "link"));
   if (totals.unchecked > 0) text += fmt::format(", and could not be checked for {}", totals.unchecked);
@@ -245,6 +256,36 @@ bool was_measured(const LinkCheck& check) {
          check.verdict == CheckVerdict::Undecided;
 }
 
+Standing standing(const LinkCheck& check, double allow) {
+  switch (check.verdict) {
+    case CheckVerdict::Covered:
+      return Standing::Covered;
+    case CheckVerdict::Leaks:
+      return passes(check, allow) ? Standing::Allowed : Standing::Leaks;
+    case CheckVerdict::Undecided:
+      if (passes(check, 0)) return Standing::CoveredButForRounding;
+      return passes(check, allow) ? Standing::Allowed : Standing::Undecided;
+    case CheckVerdict::NoCollision:
+      return Standing::NoCollision;
+    case CheckVerdict::NoVisual:
+      return Standing::NoVisual;
+    case CheckVerdict::Missing:
+      break;
+  }
+  return Standing::NotChecked;
+}
+
+std::string passing_text(std::span<const LinkCheck> checks, double allow) {
+  const auto any = [&](Standing is) {
+    return std::ranges::any_of(checks, [&](const LinkCheck& check) { return standing(check, allow) == is; });
+  };
+  return fmt::format("covers the visual geometry of every link{}",
+                     any(Standing::Allowed)
+                         ? fmt::format(", or lets it stick out by at most {}", length_text(allow, Rounded::Up))
+                     : any(Standing::CoveredButForRounding) ? ", but for rounding"
+                                                            : ", exactly");
+}
+
 std::string verdict_text(const LinkCheck& check) {
   switch (check.verdict) {
     case CheckVerdict::Covered:
@@ -336,7 +377,7 @@ std::vector<Finding> findings_of(const ReportInput& input) {
                         sum_up_hulls(totals, visual ? "visual meshes" : "collision meshes", cover_words(input.hulls))});
   else if (!input.hulls.empty())
     findings.push_back({true, fmt::format("No hull was made: {}.", why_no_hull(input))});
-  if (totals.checked > 0) findings.push_back(finding_of_checks(totals));
+  if (totals.checked > 0) findings.push_back(finding_of_checks(totals, input));
   if (input.motion) findings.push_back(finding_of_motion(*input.motion, cover_words(input.hulls)));
   if (!input.disabled.empty()) {
     const auto refuted = static_cast<std::size_t>(std::ranges::count_if(input.disabled, &DisabledCheck::is_refuted));

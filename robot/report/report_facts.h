@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,14 @@ std::string why_no_hull(const ReportInput& input);
 
 /// Whether both geometries are there and were compared.
 bool was_measured(const LinkCheck& check);
+
+/// How a link stands where it may stick out by `allow`.
+enum class Standing { Covered, CoveredButForRounding, Allowed, Leaks, Undecided, NoCollision, NoVisual, NotChecked };
+Standing standing(const LinkCheck& check, double allow);
+
+/// What collision geometry does of which all links pass: "covers the visual geometry of every link, or lets it stick
+/// out by at most 2.00 mm".
+std::string passing_text(std::span<const LinkCheck> checks, double allow);
 
 /// What the shipped collision geometry does: "leaks: the link sticks out by 0.81 to 0.83 mm".
 std::string verdict_text(const LinkCheck& check);

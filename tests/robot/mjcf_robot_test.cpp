@@ -100,12 +100,26 @@ TEST(MjcfRobot, OnlyARootIsTheWorld) {
   EXPECT_TRUE(says(other, "<joint name=\"j\" type=\"ball\"")) << "MuJoCo nests no free joints";
 }
 
+TEST(MjcfRobot, NamesOfItsOwnAreOfNothingElse) {
+  const MjcfRobot made =
+      mjcf_of_urdf("<link name=\"a\"/><link name=\"world\"/><link name=\"world_link\"/>" +
+                   joint("j", "planar", "a", "world") + joint("j_TX", "fixed", "world", "world_link"));
+  EXPECT_TRUE(says(made, "<body name=\"world_link\"") && says(made, "<body name=\"world_link_\""));
+  EXPECT_EQ(made.notes.at(0), "the link world is the body world_link_: MuJoCo has a world of its own");
+  EXPECT_TRUE(says(made, "<joint name=\"j_TX_\"") && says(made, "<joint name=\"j_TY\""));
+}
+
 TEST(MjcfRobot, RefusesLongChainsAndOtherFormats) {
-  std::string chain = "<link name=\"0\"/>";
-  for (int i = 1; i < 200; ++i)
-    chain += fmt::format("<link name=\"{}\"/>", i) +
-             joint(fmt::format("j{}", i), "fixed", fmt::format("{}", i - 1), fmt::format("{}", i));
-  EXPECT_NE(refusal_of([&] { mjcf_of_urdf(chain); }, Defect::InvalidOption), "");
+  const auto chain = [](int links) {
+    std::string text = "<link name=\"0\"/>";
+    for (int i = 1; i < links; ++i)
+      text += fmt::format("<link name=\"{}\"/>", i) + joint(fmt::format("j{}", i), i == 1 ? "continuous" : "fixed",
+                                                            fmt::format("{}", i - 1), fmt::format("{}", i));
+    return text;
+  };
+  EXPECT_EQ(refusal_of([&] { mjcf_of_urdf(chain(96)); }), "");
+  for (const int links : {97, 200, 100'000})
+    EXPECT_NE(refusal_of([&] { mjcf_of_urdf(chain(links)); }, Defect::InvalidOption), "") << links;
   const RobotFile sdf = read_robot("<sdf version=\"1.6\"><model name=\"m\"><link name=\"a\"/></model></sdf>", "m.sdf");
   EXPECT_NE(refusal_of([&] { mjcf_of(sdf, sdf.robot, {}, {}); }, Defect::InvalidOption), "");
 }

@@ -177,6 +177,10 @@ TEST_F(PackagesTest, MayBeTheOnlyFilesThatAreRead) {
   expect_found("package://other/c.stl", elsewhere, with_other);
   fs::create_symlink(elsewhere, robot_.parent_path() / "link.stl");
   EXPECT_TRUE(has(refused("link.stl", only_inside), "is outside of"));
+  FileOptions with_loop = only_inside;
+  fs::create_symlink("loop", folder_.path() / "loop");
+  with_loop.package_paths = {folder_.path() / "loop"};
+  EXPECT_TRUE(has(refused("../../other/c.stl", with_loop), "is outside of")) << "a folder that leads nowhere";
   EXPECT_TRUE(find("a.stl", only_inside).alone) << "it may have no data in other files";
   EXPECT_FALSE(find("a.stl", {}).alone);
 }
@@ -202,6 +206,10 @@ TEST_F(PackagesTest, RelatesPathsToAnotherFolder) {
   EXPECT_EQ(uri_from(out, "meshes/none.stl"), "meshes/none.stl");
   EXPECT_EQ(uri_from(out, "file:meshes/a.stl"), "../urdf/meshes/a.stl");
   EXPECT_EQ(uri_from(robot_.parent_path(), "file:meshes/a.stl"), "file:meshes/a.stl");
+  const fs::path before = fs::current_path();
+  fs::current_path(robot_.parent_path().parent_path());
+  EXPECT_EQ(uri_from("", "meshes/a.stl"), "urdf/meshes/a.stl") << "the folder of a file that is named without one";
+  fs::current_path(before);
   file("ws/src/arm_description/out/meshes/a.stl");  // another file of this name
   EXPECT_EQ(uri_from(out, "meshes/a.stl"), "../urdf/meshes/a.stl");
 }

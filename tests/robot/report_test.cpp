@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <limits>
+#include <random>
 
+#include "prohull/detail/rounded.h"
 #include "prohull/error.h"
 #include "prohull/sample.h"
+#include "random.h"
 #include "robot/files/xml.h"
 #include "robot/report/pictures.h"
 #include "robot/report/report_facts.h"
@@ -96,6 +100,55 @@ TEST(ReportFacts, ABoundStaysOneWhenItIsRounded) {
   EXPECT_EQ(length_text(kInfinity), "unbounded");
   EXPECT_EQ(range_text(0.00081, 0.00083), "0.810 to 0.830 mm");
   EXPECT_EQ(range_text(0.00081, 0.00081), "0.810 mm");
+}
+
+/// The number that a length says, in metres, as a reader of the text gets it.
+double read_metres(const std::string& text) {
+  const std::string number = text.substr(0, text.find(' '));
+  const std::size_t e = std::min(number.find('e'), number.size());
+  const int own = e < number.size() ? std::stoi(number.substr(e + 1)) : 0;
+  const int of_unit = text.ends_with("mm") ? -3 : text.ends_with("µm") ? -6 : 0;
+  return std::stod(number.substr(0, e) + "e" + std::to_string(own + of_unit));
+}
+
+TEST(ReportFacts, NoBoundIsRoundedToItsOtherSide) {
+  EXPECT_GE(read_metres(length_text(0.000830000000001, Rounded::Up)), 0.000830000000001);
+  EXPECT_GE(read_metres(length_text(4.2300000000001e-6, Rounded::Up)), 4.2300000000001e-6);
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> exponent(-22, 6);
+  for (int i = 0; i < 2'000; ++i) {
+    const double metres = std::pow(10, exponent(random)), coarse = nearest_of_digits(metres, 3);
+    for (const double bound : {metres, coarse, std::nextafter(coarse, 0), std::nextafter(coarse, 1e9)}) {
+      EXPECT_GE(read_metres(length_text(bound, Rounded::Up)), bound) << length_text(bound, Rounded::Up);
+      EXPECT_LE(read_metres(length_text(bound, Rounded::Down)), bound) << length_text(bound, Rounded::Down);
+    }
+  }
+}
+
+TEST(ReportFacts, WhatSticksOutAsAllowedIsNotSaidToBeCovered) {
+  const RobotFile file = robot_of({"a", "b"});
+  ReportInput input = input_of(file);
+  input.shipped = {check_with(0, CheckVerdict::Covered), check_with(1, CheckVerdict::Leaks)};
+  input.allow = 2e-3;
+  EXPECT_TRUE(findings_of(input)[0].good);
+  EXPECT_EQ(findings_of(input)[0].text,
+            "The shipped collision geometry covers the visual geometry of every link, or lets it stick out by at most "
+            "2.00 mm.");
+  input.shipped[1] = check_with(1, CheckVerdict::Undecided), input.allow = 0;
+  input.shipped[1].rounding = input.shipped[1].sticks_out_at_most;
+  EXPECT_EQ(findings_of(input)[0].text,
+            "The shipped collision geometry covers the visual geometry of every link, but for rounding.");
+  input.shipped.pop_back(), input.allow = 2e-3;
+  EXPECT_EQ(findings_of(input)[0].text,
+            "The shipped collision geometry covers the visual geometry of every link, exactly.");
+}
+
+TEST(ReportFacts, TheOneLinkWithAHullIsNotTheOneLink) {
+  const RobotFile file = robot_of({"a", "b"});
+  ReportInput input = input_of(file);
+  input.hulls = empty_hulls(2), input.hulls[0] = certified_hulls(0);
+  EXPECT_EQ(findings_of(input)[0].text,
+            "The one link with a hull is certified: no point of its visual meshes lies outside of its hull.");
 }
 
 TEST(ReportFacts, CountsHaveSeparatorsAndPlurals) {

@@ -188,6 +188,16 @@ TEST(ReadUrdf, ExchangesLimitsAndSaysSo) {
   EXPECT_TRUE(has(file.notes[0], "'j'"));
 }
 
+TEST(ReadUrdf, TellsOfJointsThatTheirLimitHoldsStill) {
+  std::string robot = link("a");
+  for (const std::string name : {"b", "c", "d", "e", "f", "g", "h"})
+    robot += link(name) + joint("to_" + name, "a", name, "<limit effort='1'/>", "revolute");
+  EXPECT_EQ(robot_of(robot).notes,
+            (std::vector<std::string>{"7 joints whose <limit> has neither lower nor upper, which URDF reads as 0 to 0: "
+                                      "they stay there: to_b, to_c, to_d, to_e, to_f, and 2 more"}));
+  EXPECT_TRUE(robot_of(link("a") + link("b") + joint("j", "a", "b", "<limit upper='1'/>", "revolute")).notes.empty());
+}
+
 TEST(ReadUrdf, TakesHugeLimitsForNone) {
   const Joint read =
       robot_of(link("a") + link("b") + joint("j", "a", "b", "<limit lower='-1.79769e+308' upper='1e16'/>", "revolute"))

@@ -24,6 +24,16 @@ inline std::string counted(std::size_t number, std::string_view one, std::string
   return text + (number != 1 && many.empty() ? "s" : "");
 }
 
+/// The first names of several, and how many others there are: "a, b, and 12 more".
+template <class Names>
+std::string first_of(const Names& names, std::size_t most = 5) {
+  std::string text;
+  std::size_t told = 0;
+  for (const std::string& name : names)
+    if (told < most) text += (told++ > 0 ? ", " : "") + name;
+  return names.size() > most ? text + ", and " + grouped(names.size() - most) + " more" : text;
+}
+
 /// How many bytes the UTF-8 character has that the text begins with; 0 if it is none that may be shown: a control
 /// character other than tab and the ends of lines.
 inline std::size_t character_length(std::string_view text) {
