@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "prohull/convex_hull.h"
 #include "prohull/detail/finite.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
@@ -40,7 +41,7 @@ TriangleMesh mesh_triangles(const MeshFile& mesh) {
     for (Vec3& p : triangles.positions) p = {p.x * mesh.scale.x, p.y * mesh.scale.y, p.z * mesh.scale.z};
   if (mirrors(mesh.scale))
     for (auto& corners : triangles.triangles) std::swap(corners[1], corners[2]);
-  return triangles;
+  return mesh.is_filled ? convex_hull(with_finite_faces(std::move(triangles))) : triangles;
 }
 
 TriangleMesh finite_triangles(TriangleMesh mesh) {

@@ -32,7 +32,8 @@ std::optional<CurvedForm> curved_form(const Form& form, const Pose& pose = {});
 TriangleMesh form_mesh(const Form& form, Curved curved, std::size_t segments = 64);
 
 /// The triangles of a mesh file as the robot scales it, in the shape's own frame. A mirrored one is turned outwards.
-/// Vertices that are not finite are kept. Throws InputError as read_mesh, and CannotRead if the file was not found.
+/// Vertices that are not finite are kept, unless it is filled. Throws InputError as read_mesh, and CannotRead if the
+/// file was not found.
 TriangleMesh mesh_triangles(const MeshFile& mesh);
 
 /// Without the faces that have a corner which is not finite. Corners that are not are 0.

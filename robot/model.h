@@ -26,6 +26,7 @@ struct MeshFile {
   std::string why_not = {};         ///< if it was not found: where it was looked for
   Vec3 scale{1, 1, 1};              ///< of the coordinates in the mesh file
   bool alone = false;               ///< as ReadOptions::alone
+  bool is_filled = false;           ///< it stands for the convex hull of the vertices that its faces use
 
   /// Whether files say the same of two meshes.
   friend bool operator==(const MeshFile& a, const MeshFile& b) { return a.uri == b.uri && a.scale == b.scale; }
@@ -61,6 +62,7 @@ struct Shape {
   Pose origin = {};       ///< in the frame of the link
   std::string name = {};  ///< may be empty
   std::size_t line = 0;   ///< of its element in the file
+  double way = 0;  ///< how far the frames lead that `origin` was computed from; 0: the file says it, and nothing rounds
 
   const MeshFile* mesh() const { return std::get_if<MeshFile>(&form); }
 };
@@ -117,7 +119,8 @@ inline bool moves(const Joint& joint) { return turns(joint) || slides(joint); }
 struct Robot {
   std::string name;
   std::vector<Link> links = {};
-  std::vector<Joint> joints = {};  ///< those of a parent come before those of its children
+  std::vector<Joint> joints = {};       ///< those of a parent come before those of its children
+  bool fills_collision_meshes = false;  ///< MJCF: what collides with a mesh collides with its convex hull
 };
 
 /// Which geometry of a link.

@@ -94,7 +94,8 @@ class UnionReader {
     has_picked_ = true;
     for (const TriangleMesh& mesh : pieces.meshes) add_components(mesh);
     all_.balls.insert(all_.balls.end(), pieces.balls.begin(), pieces.balls.end());
-    all_.notes.insert(all_.notes.end(), pieces.notes.begin(), pieces.notes.end());
+    for (const auto& notes : {file.notes, pieces.notes})
+      all_.notes.insert(all_.notes.end(), notes.begin(), notes.end());
   }
 
   void add_spheres(const path& path, const std::vector<robot::LinkBalls>& links) {

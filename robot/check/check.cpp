@@ -21,6 +21,9 @@
 namespace prohull::robot {
 namespace {
 
+/// Frames that lead so many times the size of a link away, and back, round more than 1e-9 of it.
+constexpr double kFar = 1000;
+
 /// Segments of the meshes that stand for so many curved forms where distances are measured.
 std::size_t fine_segments(std::size_t forms) { return forms <= 8 ? 128 : 32; }
 
@@ -82,6 +85,7 @@ class LinkChecker {
     std::vector<Shape> all = link.visual;
     all.insert(all.end(), link.collision.begin(), link.collision.end());
     frame_ = common_frame(all);
+    for (const Shape& shape : all) way_ = std::max(way_, shape.way);
   }
 
   LinkCheck run() {
@@ -233,9 +237,18 @@ class LinkChecker {
   /// each up to a turn and within 2^-51, and the sines, cosines and products of a rotation make its entries wrong by
   /// less than 2^-49. For a vertex that comes to 2^-47 size in each coordinate, its own sums and products included, and
   /// for two shapes to less than 2^-45 size. PieceCover::reach itself is up to 2^-41 size too great.
+  /// The same holds of the frames that origins were computed from, with the lengths of their poses as the size.
   void judge_rounding() {
-    check_.rounding = 0x1p-40 * size_;
-    if (check_.verdict != CheckVerdict::Leaks || !is_rounded_ || check_.sticks_out_at_most > check_.rounding) return;
+    constexpr double kRounding = 0x1p-40;
+    check_.rounding = kRounding * std::max(size_, std::min(way_, kFar * size_));
+    if (way_ > kFar * size_) {
+      check_.sticks_out_at_most += kRounding * way_;
+      check_.sticks_out_at_least = std::max(0.0, check_.sticks_out_at_least - kRounding * way_);
+      if (check_.sticks_out_at_least == 0) check_.verdict = CheckVerdict::Undecided;
+      return;
+    }
+    const bool is_rounded = is_rounded_ || way_ > 0;
+    if (check_.verdict != CheckVerdict::Leaks || !is_rounded || check_.sticks_out_at_most > check_.rounding) return;
     check_.verdict = CheckVerdict::Undecided;
     check_.sticks_out_at_least = 0;
   }
@@ -360,7 +373,7 @@ class LinkChecker {
   SolidPieces pieces_;
   std::vector<TriangleMesh> solids_;  // of the pieces, before they are put together
   bool has_unread_piece_ = false;
-  double size_ = 0;
+  double size_ = 0, way_ = 0;  // of the shapes; of the frames that their origins were computed from
   bool is_rounded_ = false;
   LinkCheck check_;
 };

@@ -29,7 +29,7 @@ struct LinkCheck {
   CheckVerdict verdict = CheckVerdict::NoVisual;
   double sticks_out_at_least = 0;  ///< proven: some point of the visual geometry is that far outside
   double sticks_out_at_most = 0;   ///< proven: none is farther
-  double rounding = 0;             ///< what is below may come of rounding; about 1e-12 of the link's size
+  double rounding = 0;             ///< what is below may come of rounding; about 1e-12 of the link's size and frames
   /// Such a point, in the frame of the link. If sticks_out_at_least is 0, the middle of a face that is not covered, if
   /// there are any.
   Vec3 worst_point;
@@ -62,8 +62,10 @@ struct CheckOptions {
 /// What "exact" means: the verdict is that of the coordinates as they are computed. If all shapes of a link have the
 /// same origin, these are those of the files (times their scale). Otherwise rotations, and sums with translations,
 /// round them on the way into the frame of the link: Covered and Leaks hold for the rounded coordinates, and what
-/// sticks out of them by no more than LinkCheck::rounding is Undecided. A face that lies in the plane of the triangles
-/// of an open mesh may be covered by several of them together: also Undecided.
+/// sticks out of them by no more than LinkCheck::rounding is Undecided. Where frames of SDF or MJCF lead a thousand
+/// times the size of the link away, and back, Covered becomes Undecided, too, and what the frames may have rounded
+/// counts as sticking out. A face that lies in the plane of the triangles of an open mesh may be covered by several of
+/// them together: also Undecided.
 std::vector<LinkCheck> check_links(const Robot& robot, const CheckOptions& options = {});
 
 /// Whether this link is as it should be: covered, nothing to cover, or sticking out provably by no more than `allow`;

@@ -26,13 +26,17 @@ class MjcfReader {
     file_.notes = model_.notes();
     for (const MjcfBody& body : model_.bodies()) add_link(body);
     if (file_.robot.links.empty()) refuse_without_bodies();
+    if (filled_ > 0)
+      note(fmt::format("meshes that collide: {}; they count as their convex hulls, as in MuJoCo", filled_));
     for (std::size_t body = 0; body < model_.bodies().size(); ++body) add_joints(body);
     for (const XmlElement* section : document_.root().children_called("equality"))
-      for (const XmlElement* element : section->children_called("joint")) follow(*element);
+      for (const XmlElement* element : section->children)
+        element->name == "joint" ? follow(*element) : note_equality(*element);
     set_joints(file_.robot, std::move(listed_), in_world_, JointType::Fixed, file_.notes);
     if (const Joint* joint = joint_in_mimic_loop(file_.robot))
       document_.refuse(document_.root(), fmt::format("joint '{}' in line {} follows itself by way of <equality>",
                                                      joint->name, joint->line));
+    file_.robot.fills_collision_meshes = true;
     file_.path = document_.file();
     return std::move(file_);
   }
@@ -56,16 +60,36 @@ class MjcfReader {
     Link link;
     link.name = body.name, link.line = body.element->line;
     for (const MjcfElement& geom : body.visual) add_shape(geom, link, link.visual);
-    if (body.visual_collides)
-      link.collision = link.visual;
-    else
-      for (const MjcfElement& geom : body.colliding) add_shape(geom, link, link.collision);
+    for (const MjcfElement& geom : body.colliding) add_collision(geom, link, body.visual_collides);
     file_.robot.links.push_back(std::move(link));
   }
 
   void add_shape(const MjcfElement& geom, const Link& link, std::vector<Shape>& shapes) {
     shapes.push_back(shape(geom));
-    if (const auto* const other = std::get_if<OtherForm>(&shapes.back().form))
+    note_other_form(geom, link, shapes.back().form);
+  }
+
+  void add_collision(const MjcfElement& geom, Link& link, bool is_told) {
+    Shape& collides = link.collision.emplace_back(shape(geom));
+    if (auto* const file = std::get_if<MeshFile>(&collides.form)) {
+      file->is_filled = true;
+      if (is_cut(geom))
+        collides.form = OtherForm{"mesh whose convex hull maxhullvert cuts"}, is_told = false;
+      else
+        ++filled_;
+    }
+    if (!is_told) note_other_form(geom, link, collides.form);
+  }
+
+  /// Whether the convex hull that collides may have fewer vertices than it would need.
+  bool is_cut(const MjcfElement& geom) const {
+    const MjcfElement asset = model_.asset(*model_.meshes().at(*model_.value(geom, "mesh")));
+    const std::vector<double> most = mjcf_numbers(model_, asset, "maxhullvert", 1, 1);
+    return !most.empty() && most[0] >= 0;
+  }
+
+  void note_other_form(const MjcfElement& geom, const Link& link, const Form& form) {
+    if (const auto* const other = std::get_if<OtherForm>(&form))
       note(fmt::format("{}: the {} of body '{}' is not read", document_.short_place_of(*geom.element), other->what,
                        link.name));
   }
@@ -75,11 +99,14 @@ class MjcfReader {
     if (const std::string* name = geom.element->attribute("name")) shape.name = *name;
     shape.line = geom.element->line;
     shape.origin = mjcf_pose(model_, geom);
-    if (geom.frame != Pose{}) shape.origin = composed(geom.frame, shape.origin);
+    if (geom.way > 0 || geom.frame != Pose{}) {
+      shape.way = geom.way + norm(shape.origin.translation);
+      shape.origin = composed(geom.frame, shape.origin);
+    }
     const std::string* const said = model_.value(geom, "type");
     const std::string type = said ? *said : "sphere";
     if (type == "mesh")
-      shape.form = mesh(geom, shape.origin);
+      shape.form = mesh(geom, shape);
     else if (model_.value(geom, "mesh"))
       shape.form = OtherForm{type + " fitted to a mesh"};
     else
@@ -116,8 +143,8 @@ class MjcfReader {
     return BoxForm{{2 * half[0], 2 * half[1], 2 * half[2]}};
   }
 
-  /// MuJoCo moves a vertex v to scale * (turn^-1 (v - refpos)); `origin` becomes where scale * v is.
-  Form mesh(const MjcfElement& geom, Pose& origin) const {
+  /// MuJoCo moves a vertex v to scale * (turn^-1 (v - refpos)); its origin becomes where scale * v is.
+  Form mesh(const MjcfElement& geom, Shape& shape) const {
     const std::string* const name = model_.value(geom, "mesh");
     if (!name) document_.refuse(*geom.element, "<geom> of the type mesh names no mesh");
     const auto found = model_.meshes().find(*name);
@@ -133,7 +160,8 @@ class MjcfReader {
       if (turn != Pose{} && (scale.x != scale.y || scale.y != scale.z))
         return OtherForm{"mesh that is turned by refquat and stretched"};
       const Vec3 moved = placed(turn, {-shift.x * scale.x, -shift.y * scale.y, -shift.z * scale.z});
-      origin = composed(origin, {turn.rotation, moved});
+      shape.way += norm(shape.origin.translation) + norm(moved);
+      shape.origin = composed(shape.origin, {turn.rotation, moved});
     }
     return packages_.find(model_.file_name(*file), scale, model_.compiler().mesh_folder);
   }
@@ -223,10 +251,20 @@ class MjcfReader {
     joint.lower = range[0] * unit_of(joint), joint.upper = range[1] * unit_of(joint);
   }
 
+  bool is_active(const XmlElement& equality) const {
+    const std::string* const active = model_.equality_value(equality, "active");
+    return !active || *active != "false";
+  }
+
+  void note_equality(const XmlElement& element) {
+    if (is_active(element))
+      note(fmt::format("{}: what <{}> of <equality> holds together is not read", document_.short_place_of(element),
+                       element.name));
+  }
+
   /// joint1 = a0 + a1 joint2 + ..., both counted from `ref`.
   void follow(const XmlElement& element) {
-    const std::string* const active = model_.equality_value(element, "active");
-    if (active && *active == "false") return;
+    if (!is_active(element)) return;
     std::vector<double> a{0, 1, 0, 0, 0};
     if (const std::string* text = element.attribute("polycoef")) {
       const std::vector<double> said = document_.numbers(element, *text);
@@ -264,6 +302,7 @@ class MjcfReader {
   const Packages& packages_;
   const MjcfModel model_;
   RobotFile file_;
+  std::size_t filled_ = 0;
   std::vector<Pose> in_parent_, in_world_;  // of each link
   std::vector<ListedJoint> listed_;
   std::map<std::string, std::size_t> by_name_;  // in listed_

@@ -235,7 +235,7 @@ MjcfElement MjcfModel::asset(const XmlElement& element) const {
 
 MjcfElement MjcfModel::with_class(const Place& place, const XmlElement& element) const {
   const std::string* const name = element.attribute("class");
-  return {&element, name ? known_class(element, *name) : place.child_class, place.element, place.frame};
+  return {&element, name ? known_class(element, *name) : place.child_class, place.element, place.frame, place.way};
 }
 
 void MjcfModel::read_children(const Place& place) {
@@ -270,7 +270,7 @@ void MjcfModel::add_frame(const Place& place, const XmlElement& element) {
   const std::string* const child_class = element.attribute("childclass");
   const Pose pose = mjcf_pose(*this, {&element, "", place.element, {}});
   read_children({&element, place.body, child_class ? known_class(element, *child_class) : place.child_class,
-                 composed(place.frame, pose)});
+                 composed(place.frame, pose), place.way + norm(pose.translation)});
 }
 
 void MjcfModel::add_geom(const Place& place, const XmlElement& element) {

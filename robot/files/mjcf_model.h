@@ -32,6 +32,7 @@ struct MjcfElement {
   std::string class_name;
   const XmlElement* home = nullptr;  ///< the <body> or <frame> that it is in
   Pose frame;                        ///< of the <frame>s around it, in the frame of the body
+  double way = 0;                    ///< the lengths of the poses of these <frame>s together
 };
 
 struct MjcfBody {
@@ -86,6 +87,7 @@ class MjcfModel {
     std::size_t body = 0;
     std::string child_class;
     Pose frame;
+    double way = 0;  // as MjcfElement::way
   };
   void read_children(const Place& place);
   void read_child(const Place& place, const XmlElement& child);

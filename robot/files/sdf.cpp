@@ -90,23 +90,29 @@ class SdfReader {
   }
 
   void add_shape(const XmlElement& element, std::size_t frame, std::vector<Shape>& shapes) {
+    if (!sdf_collides(element))
+      return note(
+          fmt::format("line {}: a <collision> of link '{}' has a collide_bitmask of 0: it meets nothing, and "
+                      "counts as none",
+                      element.line, frames_.all()[frame].name));
     Shape& shape = shapes.emplace_back();
     if (const std::string* name = element.attribute("name")) shape.name = *name;
     shape.line = element.line;
-    shape.origin = frames_.pose_in_link(element, frame);
+    const ComputedPose placed = frames_.pose_in_link(element, frame);
+    shape.origin = placed.pose, shape.way = placed.way;
     const XmlElement* const geometry = element.child("geometry");
     if (!geometry) document_.refuse(element, fmt::format("<{}> has no <geometry>", element.name));
     if (geometry->children.empty())
       document_.refuse(*geometry, fmt::format("the <geometry> of this <{}> says no shape", element.name));
     if (geometry->children[0]->name == "empty") return shapes.pop_back();
-    shape.form = form(*geometry->children[0]);
+    shape.form = form(*geometry->children[0], element.name);
     if (const auto* const other = std::get_if<OtherForm>(&shape.form))
       note(fmt::format("line {}: the {} of link '{}' is not read", element.line, other->what,
                        frames_.all()[frame].name));
   }
 
-  Form form(const XmlElement& element) {
-    if (element.name == "mesh") return mesh_form(element);
+  Form form(const XmlElement& element, std::string_view of) {
+    if (element.name == "mesh") return mesh_form(element, of);
     if (element.name == "box") return BoxForm{positive_vector(element, "size")};
     if (element.name == "sphere") return SphereForm{positive_number(element, "radius")};
     if (element.name == "cylinder")
@@ -116,12 +122,15 @@ class SdfReader {
     return OtherForm{element.name};
   }
 
-  Form mesh_form(const XmlElement& element) {
+  /// Which faces a <submesh> has depends on the program that reads the mesh file. What encloses all of them encloses
+  /// it, but nothing tells what it covers.
+  Form mesh_form(const XmlElement& element, std::string_view of) {
     const std::string uri = sdf_text(element, "uri");
     if (uri.empty()) document_.refuse(element, "<mesh> has no <uri>");
     if (const XmlElement* submesh = element.child("submesh")) {
       const std::string center = sdf_text(*submesh, "center");
       if (center == "true" || center == "1") return OtherForm{"centred submesh"};
+      if (of == "collision") return OtherForm{"submesh"};
       note(fmt::format("line {}: the whole mesh file is read, although the model shows one submesh of it",
                        submesh->line));
     }
@@ -328,6 +337,15 @@ int sdf_version(const XmlElement& root) {
 bool sdf_axes_are_old(const XmlElement& root) {
   const int version = sdf_version(root);
   return version != 0 && version < 1005;
+}
+
+bool sdf_collides(const XmlElement& shape) {
+  const XmlElement* mask = &shape;
+  for (const std::string_view child : {"surface", "contact", "collide_bitmask"})
+    if (mask = mask->child(child); !mask) return true;
+  const std::string text = mask->text();
+  const char* const digits = text.starts_with("0x") || text.starts_with("0X") ? text.c_str() + 2 : text.c_str();
+  return text.empty() || std::string_view(digits).find_first_not_of('0') != std::string_view::npos;
 }
 
 std::vector<const XmlElement*> sdf_models(const XmlDocument& document) {

@@ -16,7 +16,8 @@ namespace prohull::robot {
 RobotFile read_sdf(const XmlDocument& document, const Packages& packages);
 
 /// What with_collisions does for SDF. The first <collision> of a link keeps its name and what else is in it, and gets a
-/// <pose> and a <geometry>; the others are removed, but for those that are kept. New ones are called LINK_hull.
+/// <pose> and a <geometry>; the others are removed, but for those that are kept, and those that meet nothing by their
+/// collide_bitmask. New ones are called LINK_hull.
 std::string sdf_with_collisions(const RobotFile& file, const XmlDocument& document,
                                 std::span<const NewCollision> collisions, const std::filesystem::path& folder,
                                 const NewUri& new_uri = {});

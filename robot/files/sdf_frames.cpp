@@ -161,7 +161,9 @@ void SdfFrames::move_to_placement_frame(std::size_t model) {
     if (at == 0 || ++steps > frames_.size())
       document_.refuse(element, fmt::format("the placement_frame '{}' is not placed within the model", *name));
     placement = composed(frames_[at].in_parent, placement);
+    frames_[model].way += norm(frames_[at].in_parent.translation);
   }
+  frames_[model].way += norm(frames_[model].in_parent.translation);
   frames_[model].in_parent = composed(frames_[model].in_parent, inverse(placement));
 }
 
@@ -179,6 +181,7 @@ void SdfFrames::place_all() {
     for (; !way.empty(); way.pop_back()) {
       SdfFrame& it = frames_[way.back()];
       it.in_model = composed(frames_[it.parent].in_model, it.in_parent);
+      it.way += frames_[it.parent].way + norm(it.in_parent.translation);
       placed[way.back()] = true;
     }
   }
@@ -195,13 +198,14 @@ std::size_t SdfFrames::link_of(std::size_t frame) const {
   document_.refuse(*frames_[first].element, fmt::format("'{}' is attached to no link", frames_[first].name));
 }
 
-Pose SdfFrames::pose_in_link(const XmlElement& element, std::size_t link) const {
+ComputedPose SdfFrames::pose_in_link(const XmlElement& element, std::size_t link) const {
   const XmlElement* const pose = element.child("pose");
   if (!pose) return {};
   const Pose said = sdf_pose(document_, *pose);
   const std::size_t other = relative_to(element, frames_[link].scope, link);
-  if (other == link) return said;
-  return composed(inverse(frames_[link].in_model), composed(frames_[other].in_model, said));
+  if (other == link) return {said};
+  return {composed(inverse(frames_[link].in_model), composed(frames_[other].in_model, said)),
+          frames_[link].way + frames_[other].way + norm(said.translation)};
 }
 
 }  // namespace prohull::robot

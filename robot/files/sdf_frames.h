@@ -31,6 +31,13 @@ struct SdfFrame {
   std::size_t scope = 0;                 ///< which model's names it sees
   std::size_t parent = 0, attached = 0;  ///< frames: its pose is relative to the first, and it moves with the second
   Pose in_parent, in_model;
+  double way = 0;  ///< the lengths of the poses that `in_model` was computed from, together
+};
+
+/// A pose, and how far the frames lead that it was computed from; 0 if nothing was rounded.
+struct ComputedPose {
+  Pose pose;
+  double way = 0;
 };
 
 /// The frames of a model and of the models nested in it. Frame 0 is that of the model itself.
@@ -46,7 +53,7 @@ class SdfFrames {
   std::size_t link_of(std::size_t frame) const;
   /// Where the <pose> child of `element`, which is in a link, puts it in the frame of the link. Nothing is rounded
   /// unless that pose is relative to another frame.
-  Pose pose_in_link(const XmlElement& element, std::size_t link) const;
+  ComputedPose pose_in_link(const XmlElement& element, std::size_t link) const;
 
  private:
   void add_model(const XmlElement& model, std::size_t frame, const std::string& prefix);

@@ -14,6 +14,9 @@ int sdf_version(const XmlElement& root);
 /// Whether axes of joints are in the frame of the model, as before SDF 1.5.
 bool sdf_axes_are_old(const XmlElement& root);
 
+/// Whether a <visual> or <collision> has no collide_bitmask of 0, with which it meets nothing.
+bool sdf_collides(const XmlElement& shape);
+
 /// The models of a document, in its worlds too.
 std::vector<const XmlElement*> sdf_models(const XmlDocument& document);
 

@@ -43,7 +43,7 @@ class SdfWriter {
     std::vector<const XmlElement*> old, from;
     for (const XmlElement* child : link.children) {
       if (is_shape(*child, collision.from)) from.push_back(child);
-      if (child->name == "collision") old.push_back(child);
+      if (child->name == "collision" && sdf_collides(*child)) old.push_back(child);
     }
     const std::string indent = indent_of(link, old.empty() ? nullptr : old[0]);
     std::vector<Piece> pieces = new_pieces(collision, from, link, indent);
@@ -57,7 +57,7 @@ class SdfWriter {
 
   /// Whether the reader makes a shape of it.
   static bool is_shape(const XmlElement& element, Geometry from) {
-    if (element.name != (from == Geometry::Visual ? "visual" : "collision")) return false;
+    if (element.name != (from == Geometry::Visual ? "visual" : "collision") || !sdf_collides(element)) return false;
     const XmlElement* const geometry = element.child("geometry");
     return geometry && !geometry->children.empty() && geometry->children[0]->name != "empty";
   }

@@ -26,6 +26,8 @@ TriangleMesh hull_in_link(const Robot& robot, const LinkHulls& link, Geometry fr
   TriangleMesh hull;
   if (is_hulled && curved == Curved::Within && !link.hulls[set].balls.empty())
     hull = placed(link.frame.in_link, mesh_of({}, link.hulls[set].balls, curved));
+  else if (is_hulled && robot.fills_collision_meshes && link.hulls[set].pieces.empty() && link.hulls[set].balls.empty())
+    hull = placed(link.frame.in_link, convex_hull(link.hulls[set].mesh));
   else if (is_hulled)
     hull = placed(link.frame.in_link, link.hulls[set].mesh);
   append_primitives(robot, link, from, curved, hull);
@@ -79,7 +81,8 @@ std::vector<std::optional<CertifiedBody>> certified_bodies(const Robot& robot, s
         bodies[link.link].emplace(CertifiedBody{.name = robot.links[link.link].name, .link = link.link});
     const auto files = std::ranges::find_if(
         hulls, [&](const HullFiles& of) { return of.link == link.link && of.set == 0 && of.meshes.size() == 1; });
-    if (link.primitives.empty() && files != hulls.end() && files->meshes[0].extension() == ".stl")
+    if (link.primitives.empty() && files != hulls.end() && files->meshes[0].extension() == ".stl" &&
+        !robot.fills_collision_meshes)
       body.stl = files->meshes[0], body.in_link = link.frame.in_link;
     else
       body.triangles = with_finite_faces(hull_in_link(robot, link, from, 0));

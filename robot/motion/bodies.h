@@ -13,9 +13,9 @@
 namespace prohull::robot {
 
 /// What a robot with these hulls moves: the geometry that was enclosed as `visual`, the hulls of number `set` with the
-/// primitives that are kept as `hull`, and the convex hull of each link as `convex`. Links that were skipped, or have
-/// no geometry, have no bodies. A link whose hull is not certified has no `hull`: the written robot keeps its old
-/// collision elements, as output_files does.
+/// primitives that are kept as `hull`, filled where the robot fills collision meshes, and the convex hull of each link
+/// as `convex`. Links that were skipped, or have no geometry, have no bodies. A link whose hull is not certified has no
+/// `hull`: the written robot keeps its old collision elements, as output_files does.
 Bodies bodies_of(const Robot& robot, std::span<const LinkHulls> links, Geometry from, std::size_t set = 0);
 
 /// The hulls of set 0, for a certificate in the folder of the robot: as the files of output_files, where one file

@@ -218,6 +218,31 @@ TEST_F(Check, ASlitBetweenTwoBarsIsNotRoundedAway) {
   EXPECT_LT(slit.sticks_out_at_most, 0x1p-35);
 }
 
+TEST_F(Check, WhatFramesRoundFarAwayCounts) {
+  Shape far = cube(1);
+  far.way = 2e11;  // there and back: its place is known to some 1e-5
+  for (const double size : {1., 0.9999}) {
+    const LinkCheck check = checked({far}, {cube(size)});
+    EXPECT_EQ(check.verdict, CheckVerdict::Undecided);
+    EXPECT_GT(check.sticks_out_at_most, 2e-5);
+    EXPECT_FALSE(passes(check));
+  }
+  EXPECT_EQ(checked({far}, {cube(0.1)}).verdict, CheckVerdict::Leaks);
+  far.way = 10;
+  EXPECT_EQ(checked({far}, {cube(1)}).verdict, CheckVerdict::Covered);
+  const LinkCheck check = checked({far}, {cube(1 - 4e-12)});
+  EXPECT_EQ(check.verdict, CheckVerdict::Undecided) << "ten times as much as the link rounds";
+}
+
+TEST_F(Check, AFilledMeshIsItsConvexHull) {
+  TriangleMesh both = meshes::box({-1, -1, -1}, {-0.9, 1, 1});
+  append(both, meshes::box({0.9, -1, -1}, {1, 1, 1}));
+  Shape piece = mesh(both);
+  EXPECT_EQ(checked({cube(1)}, {piece}).verdict, CheckVerdict::Leaks);
+  std::get<MeshFile>(piece.form).is_filled = true;
+  EXPECT_EQ(checked({cube(1)}, {piece}).verdict, CheckVerdict::Covered);
+}
+
 TEST_F(Check, RoundingIsNoLeak) {
   const double quarter = std::acos(-1) / 2;
   const Shape box = shape(BoxForm{{1, 2, 3}}, pose_of_rpy({0, 0, 0.5}));

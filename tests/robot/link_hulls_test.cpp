@@ -13,6 +13,7 @@
 #include "effort.h"
 #include "io/compressing.h"
 #include "meshes.h"
+#include "prohull/convex_hull.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
@@ -524,6 +525,19 @@ TEST_F(LinkHullsTest, StandForTheBodiesOfTheRobot) {
   EXPECT_EQ(bodies.hull[2], bodies.visual[2]);
   EXPECT_EQ(bodies.hull[3].face_count(), 0U);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(verify_cover(bodies.visual[i], bodies.convex[i]).encloses);
+}
+
+TEST_F(LinkHullsTest, AreFilledWhereTheRobotFillsMeshes) {
+  robot_.links[0].visual = {mesh("torus.ply")};
+  folder_.add("torus.ply", make_sample("torus", 1'000));
+  const std::vector<LinkHulls> made = link_hulls(robot_, options_);
+  const TriangleMesh hull = bodies_of(robot_, made, Geometry::Visual).hull[0];
+  robot_.fills_collision_meshes = true;
+  EXPECT_EQ(bodies_of(robot_, made, Geometry::Visual).hull[0], convex_hull(hull));
+  EXPECT_GT(signed_volume(convex_hull(hull)), 1.1 * signed_volume(hull));
+  const auto certified = certified_bodies(
+      robot_, made, std::vector<HullFiles>{{.link = 0, .stem = "a", .meshes = {"a.stl"}}}, Geometry::Visual);
+  EXPECT_EQ(certified[0]->stl, "") << "the file has the hull that is not filled";
 }
 
 TEST_F(LinkHullsTest, ThatAreNotCertifiedAreNoBodies) {

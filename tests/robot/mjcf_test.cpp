@@ -111,6 +111,34 @@ TEST(Mjcf, ReadsMeshesByTheRulesOfTheCompiler) {
             "mesh 'v', which has no file,");
 }
 
+TEST(Mjcf, WhatCollidesIsTheConvexHullOfAMesh) {
+  const auto collision = [](const std::string& mesh, const std::string& sections = "") {
+    return read(with_body("<geom type='mesh' mesh='m'/><geom type='mesh' mesh='m' contype='0' conaffinity='0'/>",
+                          sections + "<asset><mesh name='m' file='m.obj' " + mesh + "/></asset>"));
+  };
+  const RobotFile file = collision("");
+  EXPECT_TRUE(file.robot.fills_collision_meshes);
+  EXPECT_TRUE(file.robot.links[0].collision[0].mesh()->is_filled);
+  EXPECT_FALSE(file.robot.links[0].visual[0].mesh()->is_filled);
+  EXPECT_EQ(file.notes.back(), "meshes that collide: 1; they count as their convex hulls, as in MuJoCo");
+  EXPECT_TRUE(collision("maxhullvert='-1'").robot.links[0].collision[0].mesh());
+  for (const RobotFile& cut :
+       {collision("maxhullvert='8'"), collision("", "<default><mesh maxhullvert='8'/></default>")}) {
+    EXPECT_EQ(cut.robot.links[0].collision[0].form, Form(OtherForm{"mesh whose convex hull maxhullvert cuts"}));
+    EXPECT_EQ(cut.notes.back(), "line 3: the mesh whose convex hull maxhullvert cuts of body 'a' is not read");
+  }
+  const Link both =
+      read(with_body("<geom type='mesh' mesh='m'/>", "<asset><mesh name='m' file='m.obj'/></asset>")).robot.links[0];
+  EXPECT_TRUE(both.collision[0].mesh()->is_filled);
+  EXPECT_FALSE(both.visual[0].mesh()->is_filled) << "what is seen is the mesh itself";
+}
+
+TEST(Mjcf, TellsHowFarFramesLead) {
+  const auto way = [](const std::string& content) { return read(with_body(content)).robot.links[0].visual[0].way; };
+  EXPECT_EQ(way("<geom size='1' pos='7 0 0'/>"), 0);
+  EXPECT_EQ(way("<frame pos='1e9 0 0'><frame pos='-1e9 0 0'><geom size='1' pos='7 0 0'/></frame></frame>"), 2e9 + 7);
+}
+
 TEST(Mjcf, MovesMeshesToTheirReference) {
   // MuJoCo subtracts refpos, turns back by refquat, and scales.
   const Shape shape = shape_of("<geom type='mesh' mesh='part' pos='0 0 5'/>",
@@ -205,6 +233,21 @@ TEST(Mjcf, ReadsFrames) {
   expect_near(robot.joints[0].origin.translation, {0, 3, 1});
   expect_near(robot.joints[0].anchor, {0, 0, 1});
   expect_near(robot.joints[0].axis, {0, 0, 1});
+}
+
+TEST(Mjcf, NotesWhatEqualityHoldsTogether) {
+  const auto notes = [](const std::string& equality) {
+    return read(
+               "<mujoco><worldbody><body name='a'><geom size='1'/><inertial pos='0 0 0' mass='1'/><body "
+               "name='b'><joint/>"
+               "<geom size='1'/><inertial pos='0 0 0' mass='1'/></body></body></worldbody><equality>" +
+               equality + "</equality></mujoco>")
+        .notes;
+  };
+  const std::size_t before = notes("<weld body1='a' body2='b' active='false'/>").size();
+  EXPECT_EQ(before, notes("").size());
+  ASSERT_EQ(notes("<connect body1='a' body2='b' anchor='0 0 0'/>").size(), before + 1);
+  EXPECT_TRUE(has(notes("<weld body1='a' body2='b'/>").at(1), "what <weld> of <equality> holds together is not read"));
 }
 
 TEST(Mjcf, JointsFollowOthersByEquality) {

@@ -36,6 +36,55 @@ std::string write(const std::string& text, const std::vector<NewCollision>& coll
 const std::string kHull = "hulls/a&b.stl";
 const std::string kBox = "<geometry><box><size>1 2 3</size></box></geometry>";
 
+TEST(Sdf, ASubmeshCoversNothingThatIsKnown) {
+  const std::string geometry = "<geometry><mesh><uri>a.obj</uri><submesh><name>b</name></submesh></mesh></geometry>";
+  const RobotFile file = read(in_model("<link name='a'><visual name='v'>" + geometry + "</visual><collision name='c'>" +
+                                       geometry + "</collision></link>"));
+  EXPECT_TRUE(file.robot.links[0].visual[0].mesh());
+  EXPECT_EQ(file.robot.links[0].collision[0].form, Form(OtherForm{"submesh"}));
+  EXPECT_EQ(file.notes,
+            (std::vector<std::string>{"line 3: the whole mesh file is read, although the model shows one submesh of it",
+                                      "line 3: the submesh of link 'a' is not read"}));
+}
+
+TEST(Sdf, TellsHowFarFramesLead) {
+  const auto way = [](const std::string& pose) {
+    return read(in_model("<frame name='f'><pose>1e9 0 0 0 0 0</pose></frame>"
+                         "<frame name='g'><pose relative_to='f'>-1e9 0 0 0 0 0</pose></frame><link name='a'><visual "
+                         "name='v'>" +
+                         pose + kBox + "</visual></link>"))
+        .robot.links[0]
+        .visual[0]
+        .way;
+  };
+  EXPECT_EQ(way("<pose>1 0 0 0 0 0</pose>"), 0);
+  EXPECT_EQ(way("<pose relative_to='a'>1 0 0 0 0 0</pose>"), 0);
+  EXPECT_EQ(way("<pose relative_to='g'>7 0 0 0 0 0</pose>"), 2e9 + 7);
+}
+
+const std::string kMeetsNothing = "<surface><contact><collide_bitmask> 0x00 </collide_bitmask></contact></surface>";
+
+TEST(Sdf, WhatMeetsNothingIsNoCollisionGeometry) {
+  const std::string meets = "<surface><contact><collide_bitmask>10</collide_bitmask></contact></surface>";
+  const RobotFile file =
+      read(in_model("<link name='a'><collision name='b'>" + kBox + kMeetsNothing + "</collision><collision name='c'>" +
+                    kBox + meets + "</collision><collision name='d'>" + kBox + "</collision></link>"));
+  ASSERT_EQ(file.robot.links[0].collision.size(), 2U);
+  EXPECT_EQ(file.robot.links[0].collision[0].name, "c");
+  EXPECT_EQ(file.notes, (std::vector<std::string>{"line 3: a <collision> of link 'a' has a collide_bitmask of 0: it "
+                                                  "meets nothing, and counts as none"}));
+}
+
+TEST(Sdf, AHullTakesNoPlaceThatMeetsNothing) {
+  const std::string text = in_model("<link name='a'><visual name='v'>" + kBox + "</visual>\n<collision name='b'>" +
+                                    kBox + kMeetsNothing + "</collision></link>\n");
+  NewCollision collision;
+  collision.hulls = {kHull};
+  const RobotFile written = read(write(text, {collision}));
+  ASSERT_EQ(written.robot.links[0].collision.size(), 1U);
+  EXPECT_EQ(written.robot.links[0].collision[0].mesh()->uri, kHull);
+}
+
 TEST(Sdf, ReadsShapes) {
   const RobotFile file = read(in_model(
       "<link name='a'><visual name='v'><pose>1 2 3 0 0 0</pose>"
