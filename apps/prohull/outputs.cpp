@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <random>
@@ -213,6 +214,11 @@ void Outputs::add_report(const path& target, nlohmann::json report) {
   if (target.empty()) return;
   report["version"] = PROHULL_VERSION;
   add(target, report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+void Outputs::put_last_first() {
+  const std::lock_guard lock(g_mutex);
+  std::rotate(pending_.begin(), std::prev(pending_.end()), pending_.end());
 }
 
 void Outputs::commit() {

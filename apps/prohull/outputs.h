@@ -36,7 +36,10 @@ class Outputs {
   /// Makes a folder, and those above it, where it is not there. If the outputs do not appear, what was made vanishes.
   void add_folder(const std::filesystem::path& folder);
 
-  /// Lets all of them appear. Throws Cancelled if the user has interrupted, InputError(CannotWrite).
+  /// Lets the one that was added last appear before the others.
+  void put_last_first();
+
+  /// Lets all of them appear, in their order. Throws Cancelled if the user has interrupted, InputError(CannotWrite).
   void commit();
 
  private:

@@ -104,6 +104,7 @@ void RobotFolder::commit(nlohmann::json report, const std::string& key, int exit
   report["run"] = {{"made_from", key}, {"files", new_}, {"exit_code", exit_code}};
   outputs_.add_folder(folder_);
   outputs_.add_report(folder_ / kReport, std::move(report));
+  outputs_.put_last_first();  // where a run is killed meanwhile, the next one knows by the report whose files there are
   outputs_.commit();
   remove_old();
 }

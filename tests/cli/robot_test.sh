@@ -45,6 +45,29 @@ says out "check: what to do" "prohull urdf robot/robot.urdf -o DIR"
 says junit.xml "check: JUnit" "<failure"
 says check.json "check: JSON" '"verdict": "leaks"'
 expect 1 "check with too little allowed" $urdf --check --allow 0.01mm
+cp -r robot "a robot's"
+expect 1 "a name that a shell would take apart" $prohull urdf "a robot's/robot.urdf" --check
+says out "a name that a shell would take apart" "\`prohull urdf 'a robot'\\''s/robot.urdf' -o DIR\`"
+rm "a robot's/meshes/knot.ply"
+expect 1 "check without a mesh" $prohull urdf "a robot's/robot.urdf" --check
+says_not out "check without a mesh: no run that would fail" "-o DIR"
+
+# a model that is named without a folder, and includes another one
+mkdir -p included/inner
+cat >included/inner/model.sdf <<'SDF'
+<sdf version="1.9"><model name="inner"><link name="l">
+<visual name="v"><geometry><mesh><uri>part.stl</uri></mesh></geometry></visual>
+<collision name="c"><geometry><mesh><uri>part.stl</uri><submesh><name>s</name></submesh></mesh></geometry></collision>
+</link></model></sdf>
+SDF
+cp robot/meshes/bracket.stl included/inner/part.stl
+cat >included/top.sdf <<'SDF'
+<sdf version="1.9"><model name="m"><link name="l"/><include><uri>inner</uri><name>a</name></include></model></sdf>
+SDF
+(cd included && $prohull urdf top.sdf --check >out 2>err)
+is "a file without a folder" test $? -eq 1
+says included/out "what a submesh covers is not known" "the submesh of link 'a::l' is not read"
+says included/out "what a submesh covers is not known: verdict" "NOT CHECKED"
 expect 2 "--allow without --check" $urdf --allow 1mm -o none
 expect 2 "--allow is a length" $urdf --check --allow 1lb
 says err "--allow is a length" "'1lb' is no length"
@@ -103,6 +126,15 @@ expect 0 "a moved folder" $urdf -o made/deeper $small
 says made/deeper/report.json "a moved folder is made again" '"from_cache": true'
 mv made/deeper made/deep
 expect 0 "the folder is back" $urdf -o made/deep $small
+if strace -o /dev/null true 2>/dev/null; then  # kills a run while its files appear
+  killed="strace -f -o /dev/null -e trace=rename -e inject=rename:signal=KILL:when"
+  for renames in 2 3 4 5 6 7 8; do
+    rm -rf killed && $killed=$renames $urdf -o killed --faces 100 --configurations 0 --no-pictures --no-cache >/dev/null 2>&1
+    if [ -n "$(find killed -type f ! -name '.*')" ]; then
+      expect 0 "after a run that was killed, $renames" $urdf -o killed --faces 100 --configurations 0 --no-pictures
+    fi
+  done
+fi
 echo '{"run": 3}' >made/deep/report.json
 expect 2 "a damaged report.json" $urdf -o made/deep $small
 says err "a damaged report.json" "choose a new folder"
