@@ -97,7 +97,6 @@ TEST(Sdf, ReadsShapes) {
       "<collision name='e'><geometry><empty/></geometry></collision>"
       "<collision name='p'><geometry><plane><normal>0 0 1</normal></plane></geometry></collision></link>"));
   EXPECT_EQ(file.robot.name, "m");
-  EXPECT_EQ(file.format, RobotFormat::Sdf);
   ASSERT_EQ(file.robot.links.size(), 1U);
   const Link& link = file.robot.links[0];
   EXPECT_EQ(link.line, 3U);
