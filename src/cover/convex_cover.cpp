@@ -303,7 +303,7 @@ class Covering {
       const TriangleMesh& coarse = may_gain ? prism : triangles;
       return {{}, triangles, coarse, coarse, {}};
     }
-    const TriangleMesh near = with_caps(prepared_);
+    const TriangleMesh near = prepared_.with_caps();
     const double diagonal = bounding_box(triangles).diagonal();
     Wrap around;
     for (double nodes = kWrapNodes; around.inside_volume == 0; nodes /= 2) {

@@ -108,7 +108,7 @@ class SphereCoverer {
   void wrap_solid() {
     constexpr double kPerDiagonal = 96;
     const double spacing = std::max(diagonal_ / kPerDiagonal, least_margin_);
-    TriangleMesh near = cover::with_caps(input_);
+    TriangleMesh near = input_.with_caps();
     Wrap made = cover::wrap_around(near, spacing, options_.progress);
     solid_ = std::move(made.mesh);
     append(near, made.doors);

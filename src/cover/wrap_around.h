@@ -1,6 +1,5 @@
 #pragma once
 
-#include "prohull/repair.h"
 #include "prohull/wrap.h"
 
 namespace prohull::cover {
@@ -10,7 +9,5 @@ inline Wrap wrap_around(const TriangleMesh& with_caps, double spacing, const Pro
   constexpr double kClosing = 1.5;  // in spacings, as for hulls
   return wrap(with_caps, {.spacing = spacing, .seal_rooms = true, .closing = kClosing * spacing, .progress = progress});
 }
-
-inline TriangleMesh with_caps(const RepairedMesh& input) { return input.with_caps(); }
 
 }  // namespace prohull::cover
