@@ -14,7 +14,7 @@ constexpr double kSunRadius = 0.10;  // tangent of half its angle: large, for so
 constexpr float kGloss = 0.07f;
 constexpr double kGlossSharpness = 30;
 
-Vec3 normalized(const Vec3& v) { return v / norm(v); }
+Vec3 unit(const Vec3& v) { return v / norm(v); }
 
 /// Maps the unit square to the unit disk; areas keep their ratios.
 Point2 on_disk(const Point2& at) {
@@ -25,14 +25,14 @@ Point2 on_disk(const Point2& at) {
 }  // namespace
 
 Lighting::Lighting(const ViewAxes& axes)
-    : vertical_(axes.vertical), sun_(normalized(-0.55 * axes.right + 0.85 * axes.vertical + 0.55 * axes.front)) {}
+    : vertical_(axes.vertical), sun_(unit(-0.55 * axes.right + 0.85 * axes.vertical + 0.55 * axes.front)) {}
 
 Rgb Lighting::sky(const Vec3& normal) const {
   return mix(kSkyBelow, kSkyAbove, static_cast<float>(0.5 + 0.5 * dot(normal, vertical_)));
 }
 
 float Lighting::gloss(const Vec3& normal, const Vec3& to_eye) const {
-  const double cosine = std::max(0.0, dot(normal, normalized(sun_ + to_eye)));
+  const double cosine = std::max(0.0, dot(normal, unit(sun_ + to_eye)));
   return kGloss * static_cast<float>(std::pow(cosine, kGlossSharpness));
 }
 

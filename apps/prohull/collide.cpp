@@ -125,7 +125,7 @@ void print_notes(const Body& body, const std::filesystem::path& path) {
     say("  {} stands for {}: the finest level of the file is not the input itself\n", input_name(path), finest);
 }
 
-nlohmann::json facts(const Body& body, const std::filesystem::path& path) {
+nlohmann::json facts_of_body(const Body& body, const std::filesystem::path& path) {
   return {{"path", path.string()},
           {"faces", body.index.face_count()},
           {"solid", body.index.is_solid()},
@@ -137,8 +137,8 @@ nlohmann::json report_of(const CollideOptions& options, const Body& a, const Bod
                          double seconds) {
   std::vector<std::string> notes = a.notes.all();
   if (options.b != options.a) std::ranges::move(b.notes.all(), std::back_inserter(notes));
-  nlohmann::json json = {{"a", facts(a, options.a)},
-                         {"b", facts(b, options.b)},
+  nlohmann::json json = {{"a", facts_of_body(a, options.a)},
+                         {"b", facts_of_body(b, options.b)},
                          {"notes", notes},
                          {"conservative", options.conservative},
                          {"poses", answers.collide.size()},

@@ -203,7 +203,7 @@ void say_path(const PathOptions& options, const Decision& decision, std::size_t 
     say("  the path does not name these joints, which stay: {}\n", rest);
 }
 
-nlohmann::json facts(const Decision& decision, const JointPath& path, const PathPairProof& pair) {
+nlohmann::json facts_of_pair(const Decision& decision, const JointPath& path, const PathPairProof& pair) {
   const Robot& robot = decision.file.robot;
   nlohmann::json json{{"bodies", {decision.name(pair.a), decision.name(pair.b)}},
                       {"verdict", name_of(pair.verdict)},
@@ -222,7 +222,7 @@ nlohmann::json facts(const Decision& decision, const JointPath& path, const Path
   return json;
 }
 
-nlohmann::json facts(const Decision& decision, std::size_t p) {
+nlohmann::json facts_of_path(const Decision& decision, std::size_t p) {
   const JointPath& path = decision.paths[p];
   const PathProof& proof = decision.proofs[p];
   nlohmann::json json{{"file", path.rows().file},
@@ -243,7 +243,7 @@ nlohmann::json facts(const Decision& decision, std::size_t p) {
                              {"joint", decision.file.robot.joints[beyond->joint].name},
                              {"position", beyond->position}};
   for (const PathPairProof& pair : proof.pairs)
-    if (pair.verdict != PathVerdict::Free) json["pairs"].push_back(facts(decision, path, pair));
+    if (pair.verdict != PathVerdict::Free) json["pairs"].push_back(facts_of_pair(decision, path, pair));
   return json;
 }
 
@@ -251,7 +251,7 @@ nlohmann::json report_of(const PathOptions& options, const Decision& decision, d
   nlohmann::json bodies = nlohmann::json::array(), paths = nlohmann::json::array(), left_out = nlohmann::json::array();
   for (const PathBody& body : decision.made.bodies) bodies.push_back(body.name);
   for (const auto& [a, b] : decision.left_out) left_out.push_back({decision.name(a), decision.name(b)});
-  for (std::size_t p = 0; p < decision.paths.size(); ++p) paths.push_back(facts(decision, p));
+  for (std::size_t p = 0; p < decision.paths.size(); ++p) paths.push_back(facts_of_path(decision, p));
   return {{"robot", decision.file.robot.name},
           {"file", decision.file.path.string()},
           {"geometry", name_of(geometry_names(), options.geometry)},

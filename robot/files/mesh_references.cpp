@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace prohull::robot {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r";
+constexpr std::string_view kBlanksInALine = " \t\r";
 
 std::ifstream opened(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -41,8 +41,8 @@ struct Words {
   bool is_empty() const { return text.empty(); }
 
   static Words of(std::string_view line, std::size_t begin, std::size_t end) {
-    begin = std::min(line.find_first_not_of(kBlanks, begin), end);
-    while (end > begin && kBlanks.find(line[end - 1]) != kBlanks.npos) --end;
+    begin = std::min(line.find_first_not_of(kBlanksInALine, begin), end);
+    while (end > begin && kBlanksInALine.find(line[end - 1]) != kBlanksInALine.npos) --end;
     return {line.substr(begin, end - begin), begin};
   }
 };
@@ -54,7 +54,7 @@ void for_each_line(const fs::path& file, const Take& take) {
   std::size_t begin = 0;
   for (std::string line; std::getline(in, line); begin += line.size() + 1) {
     const Words all = Words::of(line, 0, line.size());
-    const std::size_t end = std::min(line.find_first_of(kBlanks, all.begin), line.size());
+    const std::size_t end = std::min(line.find_first_of(kBlanksInALine, all.begin), line.size());
     take(std::string_view(line).substr(all.begin, end - all.begin), Words::of(line, end, line.size()), begin);
   }
 }
@@ -70,10 +70,10 @@ std::vector<FileReference> references_in_obj(const fs::path& file, const FindFil
   for_each_line(file, [&](std::string_view key, const Words& rest, std::size_t line) {
     if (key != "mtllib" || rest.is_empty()) return;
     FileReference whole = reference(rest, line, find);
-    if (!whole.file.empty() || rest.text.find_first_of(kBlanks) == rest.text.npos)
+    if (!whole.file.empty() || rest.text.find_first_of(kBlanksInALine) == rest.text.npos)
       return void(found.push_back(std::move(whole)));
     for (Words left = rest; !left.is_empty();) {
-      const std::size_t end = std::min(left.text.find_first_of(kBlanks), left.text.size());
+      const std::size_t end = std::min(left.text.find_first_of(kBlanksInALine), left.text.size());
       found.push_back(reference({left.text.substr(0, end), left.begin}, line, find));
       const Words next = Words::of(left.text, end, left.text.size());
       left = {next.text, left.begin + next.begin};
@@ -86,7 +86,7 @@ std::vector<FileReference> references_in_obj(const fs::path& file, const FindFil
 FileReference image_of(Words rest, std::size_t line, const FindFile& find) {
   for (;;) {
     FileReference found = reference(rest, line, find);
-    const std::size_t end = rest.text.find_first_of(kBlanks);
+    const std::size_t end = rest.text.find_first_of(kBlanksInALine);
     if (!found.file.empty() || end == rest.text.npos) return found;
     const Words next = Words::of(rest.text, end, rest.text.size());
     rest = {next.text, rest.begin + next.begin};

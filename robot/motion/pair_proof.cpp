@@ -11,7 +11,7 @@ namespace prohull::robot {
 namespace {
 
 /// Ranges of all freedoms, and what is known there.
-struct Cell {
+struct PoseCell {
   std::vector<JointRange> box;
   double distance = 0;                 // in the middle, of faces that may meet in the cell
   double share = 1;                    // of all positions
@@ -22,7 +22,7 @@ struct Cell {
 };
 
 struct IsLater {
-  bool operator()(const Cell& x, const Cell& y) const {
+  bool operator()(const PoseCell& x, const PoseCell& y) const {
     return std::pair(x.distance, x.number) > std::pair(y.distance, y.number);
   }
 };
@@ -55,7 +55,7 @@ class PairSearch {
     const auto ranges = chain_.ranges();
     look_at({.box = {ranges.begin(), ranges.end()}});
     while (result_.verdict == PairVerdict::Open && !open_.empty()) {
-      const Cell cell = open_.top();
+      const PoseCell cell = open_.top();
       if (work_ + 2 > most_cells_) {
         look_downhill(meter);
         return result_.verdict == PairVerdict::Open ? stopped("the number of cells is used up") : result_;
@@ -85,18 +85,18 @@ class PairSearch {
     result_.ranges.assign(chain_.ranges().begin(), chain_.ranges().end());
   }
 
-  void halve(const Cell& cell) {
+  void halve(const PoseCell& cell) {
     record_.halve(cell.number, cell.widest, result_.cells);
     const JointRange range = cell.box[cell.widest];
     for (const JointRange& half : {JointRange{range.lower, range.middle()}, JointRange{range.middle(), range.upper}}) {
-      Cell part = cell;
+      PoseCell part = cell;
       part.box[cell.widest] = half, part.share /= 2;
       look_at(std::move(part));
       if (result_.verdict != PairVerdict::Open) return;
     }
   }
 
-  void look_at(Cell cell) {
+  void look_at(PoseCell cell) {
     cell.number = result_.cells++, ++work_;
     const JointChain::Motion motion = chain_.motion(cell.box);
     cell.distance = distance_of_balls(a_, b_, motion.pose, chain_.rounding());
@@ -114,7 +114,7 @@ class PairSearch {
     open_.push(std::move(cell));
   }
 
-  bool stay_apart(Cell& cell, const JointChain::Motion& motion) {
+  bool stay_apart(PoseCell& cell, const JointChain::Motion& motion) {
     std::size_t leaf_pairs = 0;
     const auto before = cell.near;
     const bool is_free = robot::stay_apart(a_, b_, motion, 0, cell.near, leaf_pairs);
@@ -130,7 +130,7 @@ class PairSearch {
   }
 
   /// Where meshes around the bodies meet. Returns whether nothing more is to be found in the cell.
-  bool look_within(Cell& cell, const JointChain::Motion& motion, const Closest& around) {
+  bool look_within(PoseCell& cell, const JointChain::Motion& motion, const Closest& around) {
     const Closest closest = is_curved() ? closest_within(a_, b_, motion.pose, just_above(motion.change)) : around;
     if (closest.separation.collide() && is_within_limits(cell)) {
       meets_at(cell, motion.pose, around);
@@ -147,11 +147,11 @@ class PairSearch {
   /// A place where the links are close without meeting can use up all cells, as those of small distance come first.
   /// Positions at which they meet are then found from the cells that are left, the largest first.
   void look_downhill(ProgressMeter& meter) {
-    std::vector<Cell> left;
+    std::vector<PoseCell> left;
     for (; !open_.empty(); open_.pop()) left.push_back(open_.top());
-    std::ranges::stable_sort(left, std::greater(), &Cell::share);
+    std::ranges::stable_sort(left, std::greater(), &PoseCell::share);
     steps_left_ = most_cells_ / kCellsForAStep;
-    for (const Cell& cell : left) {
+    for (const PoseCell& cell : left) {
       if (may_step()) descend(cell, meter);
     }
   }
@@ -159,7 +159,7 @@ class PairSearch {
   bool may_step() const { return result_.verdict == PairVerdict::Open && steps_left_ > 0; }
 
   /// From the middle of the cell, along one joint at a time.
-  void descend(Cell at, ProgressMeter& meter) {
+  void descend(PoseCell at, ProgressMeter& meter) {
     constexpr int kHalvings = 8;  // of a step
     std::vector<double> steps;
     for (JointRange& range : at.box) {
@@ -173,12 +173,12 @@ class PairSearch {
   }
 
   /// Takes the first step that makes the distance less, if there is one.
-  bool steps_down(Cell& at, std::span<const double> steps) {
+  bool steps_down(PoseCell& at, std::span<const double> steps) {
     for (std::size_t f = 0; f < steps.size(); ++f)
       for (const double step : {steps[f], -steps[f]}) {
         if (!may_step()) return false;
         --steps_left_;
-        Cell next = at;
+        PoseCell next = at;
         const JointRange& range = chain_.ranges()[f];
         const double position = std::clamp(at.box[f].middle() + step, range.lower, range.upper);
         next.box[f] = {position, position};
@@ -190,7 +190,7 @@ class PairSearch {
   }
 
   /// Whether the distance in the cell, which is set, is less. Says so if the links meet there.
-  bool is_closer(Cell& cell, double distance) {
+  bool is_closer(PoseCell& cell, double distance) {
     const Pose pose = chain_.motion(cell.box).pose;
     const Closest closest = closest_within(a_, b_, pose, distance);
     if (closest.separation.collide() && is_within_limits(cell)) meets_at(cell, pose, closest_parts(a_, b_, pose));
@@ -199,7 +199,7 @@ class PairSearch {
   }
 
   /// The positions of all joints where the freedoms are in the middle of the cell.
-  std::vector<double> positions_in(const Cell& cell) const {
+  std::vector<double> positions_in(const PoseCell& cell) const {
     std::vector<double> positions = rest_positions(robot_);
     for (std::size_t f = 0; f < cell.box.size(); ++f) positions[chain_.freedoms()[f]] = cell.box[f].middle();
     follow(robot_, positions);
@@ -207,14 +207,14 @@ class PairSearch {
   }
 
   /// The ranges of the freedoms are rounded outwards where others follow.
-  bool is_within_limits(const Cell& cell) const {
+  bool is_within_limits(const PoseCell& cell) const {
     const std::vector<double> positions = positions_in(cell);
     return std::ranges::all_of(followers_, [&](std::size_t j) {
       return !moves(robot_.joints[j]) || own_limits(robot_.joints[j]).contains(positions[j]);
     });
   }
 
-  void meets_at(const Cell& cell, const Pose& pose, const Closest& closest) {
+  void meets_at(const PoseCell& cell, const Pose& pose, const Closest& closest) {
     result_.verdict = cell.box.empty() ? PairVerdict::Always : PairVerdict::Meets;
     result_.positions = positions_in(cell);
     result_.faces = first_faces(a_, b_, pose, closest);
@@ -225,7 +225,7 @@ class PairSearch {
   const JointChain chain_;
   std::vector<std::size_t> followers_;  // joints that follow the freedoms
   const std::size_t most_cells_;
-  std::priority_queue<Cell, std::vector<Cell>, IsLater> open_;
+  std::priority_queue<PoseCell, std::vector<PoseCell>, IsLater> open_;
   std::size_t work_ = 0;  // in cells
   std::size_t steps_left_ = 0;
   bool touches_ = false;  // somewhere it is the mesh around a curved shape that meets, and nowhere near the shape

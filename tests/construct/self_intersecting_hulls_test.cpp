@@ -16,20 +16,20 @@ TriangleMesh turned_about_x(TriangleMesh mesh) {
   return mesh;
 }
 
-struct Named {
+struct NarrowMesh {
   const char* name;
   TriangleMesh mesh;
 };
 
 /// Parts of them nearly touch, so that a hull that does not look would run into itself.
-std::vector<Named> narrow_meshes() {
+std::vector<NarrowMesh> narrow_meshes() {
   const TriangleMesh ring = torus(30, 16), ball = sphere(3);
   return {{"near_balls", together(together(ball, moved(ball, {2.002, 0, 0})), moved(ball, {1.001, 1.735, 0}))},
           {"chain", together(ring, moved(turned_about_x(ring), {1.15, 0, 0}))},
           {"knot", make_sample("knot", 2000)}};
 }
 
-class NarrowMeshes : public testing::TestWithParam<Named> {};
+class NarrowMeshes : public testing::TestWithParam<NarrowMesh> {};
 
 TEST_P(NarrowMeshes, AddNoPairsOfIntersectingFacesToTheirHulls) {
   const TriangleMesh& mesh = GetParam().mesh;

@@ -129,7 +129,7 @@ TEST(VerifyGap, AgreesWithTheProvenDistanceOfMeshes) {
   }
 }
 
-TriangleMesh scaled(TriangleMesh mesh, int exponent) {
+TriangleMesh times_power_of_2(TriangleMesh mesh, int exponent) {
   for (Vec3& p : mesh.positions) p = p * std::ldexp(1.0, exponent);
   return mesh;
 }
@@ -138,7 +138,7 @@ TriangleMesh scaled(TriangleMesh mesh, int exponent) {
 // infinite.
 TEST(VerifyGap, IsDecidedInEveryUnit) {
   for (int exponent = -498; exponent <= 331; exponent += 10) {
-    const TriangleMesh hull = scaled(kLarge, exponent), cube = scaled(kCube, exponent);
+    const TriangleMesh hull = times_power_of_2(kLarge, exponent), cube = times_power_of_2(kCube, exponent);
     const double gap = std::ldexp(0.25, exponent);
     EXPECT_TRUE(verified(hull, cube, gap).certified) << exponent;
     EXPECT_FALSE(verified(hull, cube, above(gap)).keeps_gap) << exponent;

@@ -41,7 +41,7 @@ Pieces small_cubes(int left_out = -1) {
   }
   return pieces;
 }
-const TriangleMesh kCube = box({0, 0, 0}, {3, 3, 3});
+const TriangleMesh kBlock = box({0, 0, 0}, {3, 3, 3});
 constexpr int kMiddle = 13;
 
 TEST(UnionOfPieces, MayShareWalls) {
@@ -52,7 +52,7 @@ TEST(UnionOfPieces, MayShareWalls) {
   EXPECT_TRUE(found.certified) << found.why_not;
   EXPECT_TRUE(found.original_closed);
   EXPECT_NEAR(found.void_ratio, 0, 1e-6);
-  EXPECT_TRUE(verify_union(small_cubes(), kCube).certified);
+  EXPECT_TRUE(verify_union(small_cubes(), kBlock).certified);
 }
 
 TEST(UnionOfPieces, LeavesASlitOfOneUlp) {
@@ -87,21 +87,21 @@ TEST(UnionOfPieces, IsFoundTooSmallByOneUlpInAnyCoordinate) {
 }
 
 TEST(UnionOfPieces, HasNoHoleWhereItLiesInTheMidstOfTheOriginal) {
-  const UnionVerification found = verify_union(Pieces{box({1, 1, 1}, {2, 2, 2})}, kCube);
+  const UnionVerification found = verify_union(Pieces{box({1, 1, 1}, {2, 2, 2})}, kBlock);
   EXPECT_EQ(found.faces_outside, 12u);
   EXPECT_EQ(found.holes, 0u);
-  const UnionVerification ball = verify_union(std::vector<Ball>{{{1.5, 1.5, 1.5}, 1}}, kCube, true);
+  const UnionVerification ball = verify_union(std::vector<Ball>{{{1.5, 1.5, 1.5}, 1}}, kBlock, true);
   EXPECT_EQ(ball.faces_outside, 12u);
   EXPECT_EQ(ball.holes, 0u);
 }
 
 TEST(UnionOfPieces, LeavesAHoleInside) {
-  const UnionVerification found = verify_union(small_cubes(kMiddle), kCube);
+  const UnionVerification found = verify_union(small_cubes(kMiddle), kBlock);
   EXPECT_FALSE(found.certified);
   EXPECT_EQ(found.faces_outside, 0u);
   EXPECT_EQ(found.holes, 1u);
   EXPECT_NE(found.why_not.find("inside open"), std::string::npos) << found.why_not;
-  EXPECT_FALSE(verify_union(small_cubes(kMiddle), kCube, {.solid_only = true}).certified);
+  EXPECT_FALSE(verify_union(small_cubes(kMiddle), kBlock, {.solid_only = true}).certified);
 }
 
 TEST(UnionOfPieces, OutsideOfASurfaceTouchesAllTrianglesButNotTheInside) {
@@ -115,7 +115,7 @@ TEST(UnionOfPieces, OutsideOfASurfaceTouchesAllTrianglesButNotTheInside) {
 TEST(UnionOfPieces, TurnsPiecesThatAreInsideOut) {
   Pieces pieces = small_cubes();
   pieces[3] = inside_out(pieces[3]);
-  const UnionVerification found = verify_union(pieces, kCube);
+  const UnionVerification found = verify_union(pieces, kBlock);
   EXPECT_TRUE(found.certified) << found.why_not;
   EXPECT_EQ(found.turned_pieces, 1u);
 }
@@ -132,15 +132,15 @@ TEST(UnionOfPieces, TakesPiecesThatAreNotConvex) {
 
 TEST(UnionOfPieces, AnswersForTheSolidAndForTheTrianglesApart) {
   const auto answers = [](const Verdict& found) { return std::pair(found.encloses_solid, found.covers_triangles); };
-  EXPECT_EQ(answers(verify_union(small_cubes(), kCube)), std::pair(Answer::Yes, Answer::Yes));
-  EXPECT_EQ(answers(verify_union(small_cubes(kMiddle), kCube)), std::pair(Answer::No, Answer::Yes));
-  EXPECT_EQ(answers(verify_union(small_cubes(), kCube, {.solid_only = true})),
+  EXPECT_EQ(answers(verify_union(small_cubes(), kBlock)), std::pair(Answer::Yes, Answer::Yes));
+  EXPECT_EQ(answers(verify_union(small_cubes(kMiddle), kBlock)), std::pair(Answer::No, Answer::Yes));
+  EXPECT_EQ(answers(verify_union(small_cubes(), kBlock, {.solid_only = true})),
             std::pair(Answer::Yes, Answer::NotAsked));
-  EXPECT_EQ(answers(verify_union(Pieces{small_cubes()[0]}, kCube)), std::pair(Answer::Undecided, Answer::No));
+  EXPECT_EQ(answers(verify_union(Pieces{small_cubes()[0]}, kBlock)), std::pair(Answer::Undecided, Answer::No));
 }
 
 TEST(UnionOfPieces, AsksOfAnOpenOriginalOnlyTheTriangles) {
-  TriangleMesh open = kCube;
+  TriangleMesh open = kBlock;
   open.triangles.pop_back();
   open.triangles.push_back(open.triangles[FaceId(0)]);
   open.triangles.push_back({open.positions.push_back({kInfinity, 0, 0}), VertexId(0), VertexId(1)});
@@ -172,7 +172,7 @@ TEST(UnionOfPieces, RefusesWhatIsNoSolidByItsNumber) {
 
 TEST(UnionOfPieces, EndsWhenCancelled) {
   const VerificationOptions options{.progress = [](std::string_view, double) { return false; }};
-  EXPECT_THROW(verify_union(small_cubes(), kCube, options), Cancelled);
+  EXPECT_THROW(verify_union(small_cubes(), kBlock, options), Cancelled);
 }
 
 /// The convex hull of a few corners of a grid; it may be empty.
@@ -308,25 +308,25 @@ std::vector<Ball> balls_around_small_cubes(int left_out = -1) {
 }
 
 TEST(UnionOfBalls, AnswersForTheSolidOnlyWhereItIsAsked) {
-  const UnionVerification surface = verify_union(balls_around_small_cubes(kMiddle), kCube, false);
+  const UnionVerification surface = verify_union(balls_around_small_cubes(kMiddle), kBlock, false);
   EXPECT_EQ(surface.covers_triangles, Answer::Yes);
   EXPECT_EQ(surface.encloses_solid, Answer::NotAsked);
-  const UnionVerification inside = verify_union(balls_around_small_cubes(kMiddle), kCube, true);
+  const UnionVerification inside = verify_union(balls_around_small_cubes(kMiddle), kBlock, true);
   EXPECT_EQ(inside.covers_triangles, Answer::Yes);
   EXPECT_EQ(inside.encloses_solid, Answer::No);
 }
 
 TEST(UnionOfBalls, AreUndecidedAfterAsManyStepsAsAreAllowed) {
-  const UnionVerification surface = verify_union(balls_around_small_cubes(), kCube, false, {.max_steps = 1});
+  const UnionVerification surface = verify_union(balls_around_small_cubes(), kBlock, false, {.max_steps = 1});
   EXPECT_FALSE(surface.certified || surface.is_any(Answer::No));
   EXPECT_EQ(surface.covers_triangles, Answer::Undecided);
-  EXPECT_EQ(surface.faces_undecided, kCube.face_count());
+  EXPECT_EQ(surface.faces_undecided, kBlock.face_count());
   const UnionVerification inside =
-      verify_union(balls_around_small_cubes(), kCube, true, {.solid_only = true, .max_steps = 1});
+      verify_union(balls_around_small_cubes(), kBlock, true, {.solid_only = true, .max_steps = 1});
   EXPECT_FALSE(inside.certified || inside.is_any(Answer::No));
   EXPECT_TRUE(inside.inside_undecided);
   EXPECT_NE(inside.why_not.find("takes too long"), std::string::npos) << inside.why_not;
-  EXPECT_TRUE(verify_union(balls_around_small_cubes(), kCube, true, {.max_steps = 1'000'000}).certified);
+  EXPECT_TRUE(verify_union(balls_around_small_cubes(), kBlock, true, {.max_steps = 1'000'000}).certified);
 }
 
 TEST(UnionOfBalls, TakeStepsForThoseNearAPartOfALongTriangleOnly) {
@@ -339,9 +339,9 @@ TEST(UnionOfBalls, TakeStepsForThoseNearAPartOfALongTriangleOnly) {
 }
 
 TEST(UnionOfBalls, LeavesAHoleInside) {
-  EXPECT_TRUE(verify_union(balls_around_small_cubes(), kCube, true).certified);
-  EXPECT_TRUE(verify_union(balls_around_small_cubes(kMiddle), kCube, false).certified);
-  const UnionVerification found = verify_union(balls_around_small_cubes(kMiddle), kCube, true);
+  EXPECT_TRUE(verify_union(balls_around_small_cubes(), kBlock, true).certified);
+  EXPECT_TRUE(verify_union(balls_around_small_cubes(kMiddle), kBlock, false).certified);
+  const UnionVerification found = verify_union(balls_around_small_cubes(kMiddle), kBlock, true);
   EXPECT_FALSE(found.certified);
   EXPECT_EQ(found.faces_outside, 0u);
   EXPECT_EQ(found.holes, 1u);
@@ -349,14 +349,14 @@ TEST(UnionOfBalls, LeavesAHoleInside) {
 }
 
 TEST(UnionOfBalls, OutsideOfTheSolidNeedNotCover) {
-  const TriangleMesh hollow = together(kCube, inside_out(box({1, 1, 1}, {2, 2, 2})));
+  const TriangleMesh hollow = together(kBlock, inside_out(box({1, 1, 1}, {2, 2, 2})));
   std::vector<Ball> balls = balls_around_small_cubes(kMiddle);
   EXPECT_TRUE(verify_union(balls, hollow, true).certified);
 }
 
 TEST(UnionOfBalls, NamesTheFarthestTriangle) {
   std::vector<Ball> balls = balls_around_small_cubes(0);
-  const UnionVerification found = verify_union(balls, kCube, false);
+  const UnionVerification found = verify_union(balls, kBlock, false);
   EXPECT_FALSE(found.certified);
   EXPECT_EQ(found.faces_outside, 6u);
   ASSERT_FALSE(found.worst.empty());
@@ -366,8 +366,8 @@ TEST(UnionOfBalls, NamesTheFarthestTriangle) {
 
 TEST(UnionOfBalls, RefusesBallsByTheirNumber) {
   const std::vector<Ball> balls{{{0, 0, 0}, 1}, {{0, 0, 0}, -1}};
-  EXPECT_NE(message_of([&] { verify_union(balls, kCube, false); }).find("ball 2:"), std::string::npos);
-  EXPECT_THROW(verify_union(std::vector<Ball>{}, kCube, false), InputError);
+  EXPECT_NE(message_of([&] { verify_union(balls, kBlock, false); }).find("ball 2:"), std::string::npos);
+  EXPECT_THROW(verify_union(std::vector<Ball>{}, kBlock, false), InputError);
 }
 
 TEST(UnionOfBalls, AgreesWithPointsInExactArithmetic) {

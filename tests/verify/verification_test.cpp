@@ -23,14 +23,14 @@ namespace {
 
 using namespace meshes;
 
-const TriangleMesh kSmall = box({0, 0, 0}, {1, 1, 1}), kLarge = box({-1, -1, -1}, {2, 2, 2});
+const TriangleMesh kSmallCube = box({0, 0, 0}, {1, 1, 1}), kLargeCube = box({-1, -1, -1}, {2, 2, 2});
 
 TriangleMesh without_a_face(TriangleMesh mesh) {
   mesh.triangles.pop_back();
   return mesh;
 }
 
-/// One triangle more, outside of kLarge.
+/// One triangle more, outside of kLargeCube.
 TriangleMesh with_a_stray_triangle(TriangleMesh mesh) {
   return together(std::move(mesh), make({{9, 0, 0}, {9, 1, 0}, {9, 0, 1}}, {{0, 1, 2}}));
 }
@@ -44,14 +44,14 @@ bool says(const Verification& found, std::string_view words) {
 /// A box with a spike that was pushed in through it and out of the other side: there its faces look inwards, and bound
 /// nothing. Only the tip, at z = -2, sticks out.
 TriangleMesh box_with_a_spike_inside_out() {
-  TriangleMesh mesh = subdivided(kSmall);
+  TriangleMesh mesh = subdivided(kSmallCube);
   for (const VertexId v : mesh.positions.ids())
     if (mesh.positions[v] == Vec3{0.5, 0.5, 1}) mesh.positions[v].z = -2;
   return mesh;
 }
 
 TEST(VerifyHull, OfAClosedOriginalTheSolidMustBeEnclosedAndEveryTriangleCovered) {
-  const Verification found = verify_hull(kLarge, kSmall);
+  const Verification found = verify_hull(kLargeCube, kSmallCube);
   EXPECT_TRUE(found.encloses);
   EXPECT_EQ(found.proof, "enclosure");
   EXPECT_TRUE(found.original_closed);
@@ -61,7 +61,7 @@ TEST(VerifyHull, OfAClosedOriginalTheSolidMustBeEnclosedAndEveryTriangleCovered)
   EXPECT_DOUBLE_EQ(found.original_volume, 1);
   EXPECT_DOUBLE_EQ(found.void_ratio, 26);
   EXPECT_TRUE(found.notes.empty());
-  const Verification reversed = verify_hull(kSmall, kLarge);
+  const Verification reversed = verify_hull(kSmallCube, kLargeCube);
   EXPECT_FALSE(reversed.encloses);
   EXPECT_EQ(reversed.faces_outside, 12u);
   EXPECT_FALSE(reversed.worst.empty());
@@ -70,50 +70,50 @@ TEST(VerifyHull, OfAClosedOriginalTheSolidMustBeEnclosedAndEveryTriangleCovered)
 
 TEST(VerifyHull, AnswersForTheSolidAndForTheTrianglesApart) {
   const auto answers = [](const Verdict& found) { return std::pair(found.encloses_solid, found.covers_triangles); };
-  const TriangleMesh folded = box_with_a_spike_inside_out(), open = without_a_face(kSmall);
-  EXPECT_EQ(answers(verify_hull(kLarge, kSmall)), std::pair(Answer::Yes, Answer::Yes));
-  EXPECT_EQ(answers(verify_hull(kSmall, kLarge)), std::pair(Answer::No, Answer::No));
-  EXPECT_EQ(answers(verify_hull(kLarge, folded)), std::pair(Answer::Yes, Answer::No));
-  EXPECT_EQ(answers(verify_hull(kLarge, folded, HullSide::Outer, {.solid_only = true})),
+  const TriangleMesh folded = box_with_a_spike_inside_out(), open = without_a_face(kSmallCube);
+  EXPECT_EQ(answers(verify_hull(kLargeCube, kSmallCube)), std::pair(Answer::Yes, Answer::Yes));
+  EXPECT_EQ(answers(verify_hull(kSmallCube, kLargeCube)), std::pair(Answer::No, Answer::No));
+  EXPECT_EQ(answers(verify_hull(kLargeCube, folded)), std::pair(Answer::Yes, Answer::No));
+  EXPECT_EQ(answers(verify_hull(kLargeCube, folded, HullSide::Outer, {.solid_only = true})),
             std::pair(Answer::Yes, Answer::NotAsked));
-  EXPECT_EQ(answers(verify_hull(kLarge, open)), std::pair(Answer::NotAsked, Answer::Yes));
-  EXPECT_EQ(answers(verify_hull(kLarge, open, HullSide::Outer, {.closed = &kSmall})),
+  EXPECT_EQ(answers(verify_hull(kLargeCube, open)), std::pair(Answer::NotAsked, Answer::Yes));
+  EXPECT_EQ(answers(verify_hull(kLargeCube, open, HullSide::Outer, {.closed = &kSmallCube})),
             std::pair(Answer::Yes, Answer::Yes));
-  EXPECT_EQ(answers(verify_hull(kSmall, kLarge, HullSide::Inner)), std::pair(Answer::Yes, Answer::Yes));
+  EXPECT_EQ(answers(verify_hull(kSmallCube, kLargeCube, HullSide::Inner)), std::pair(Answer::Yes, Answer::Yes));
 }
 
 TEST(VerifyHull, SaysNoToAFoldThatSticksOut) {
   const TriangleMesh original = box_with_a_spike_inside_out();
-  const Verification found = verify_hull(kLarge, original);
+  const Verification found = verify_hull(kLargeCube, original);
   EXPECT_FALSE(found.encloses);
   EXPECT_NE(found.why_not.find("folds"), std::string::npos) << found.why_not;
   ASSERT_FALSE(found.worst.empty());
   EXPECT_DOUBLE_EQ(found.worst[0].distance, 1);
   const Triangle t = original.triangle(found.worst[0].face);
   EXPECT_TRUE(std::min({t.a.z, t.b.z, t.c.z}) == -2) << "the face has its number in the original";
-  const Verification solid = verify_hull(kLarge, original, HullSide::Outer, {.solid_only = true});
+  const Verification solid = verify_hull(kLargeCube, original, HullSide::Outer, {.solid_only = true});
   EXPECT_TRUE(solid.encloses) << solid.why_not;
   EXPECT_EQ(solid.covers_triangles, Answer::NotAsked);
   EXPECT_TRUE(verify_hull(box({-1, -1, -2}, {2, 2, 2}), original).encloses);
 }
 
 TEST(VerifyHull, SaysNoToFacesWithoutAreaThatStickOut) {
-  TriangleMesh original = together(kSmall, make({{1, 1, 1}, {9, 9, 9}, {5, 5, 5}}, {{0, 1, 2}, {2, 1, 0}}));
-  EXPECT_FALSE(verify_hull(kLarge, original).encloses);
-  EXPECT_TRUE(verify_hull(kLarge, original, HullSide::Outer, {.solid_only = true}).encloses);
+  TriangleMesh original = together(kSmallCube, make({{1, 1, 1}, {9, 9, 9}, {5, 5, 5}}, {{0, 1, 2}, {2, 1, 0}}));
+  EXPECT_FALSE(verify_hull(kLargeCube, original).encloses);
+  EXPECT_TRUE(verify_hull(kLargeCube, original, HullSide::Outer, {.solid_only = true}).encloses);
 }
 
 TEST(VerifyHull, SaysNoToAShellThatCoversTheTrianglesOnly) {
-  const TriangleMesh shell = together(kLarge, inside_out(box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75})));
-  EXPECT_FALSE(verify_hull(shell, kSmall).encloses);
+  const TriangleMesh shell = together(kLargeCube, inside_out(box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75})));
+  EXPECT_FALSE(verify_hull(shell, kSmallCube).encloses);
 }
 
 TEST(VerifyHull, SaysYesToCavitiesAndToPartsThatOverlap) {
-  const TriangleMesh hollow = together(kSmall, inside_out(box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75})));
-  EXPECT_TRUE(verify_hull(kLarge, hollow).encloses);
+  const TriangleMesh hollow = together(kSmallCube, inside_out(box({0.25, 0.25, 0.25}, {0.75, 0.75, 0.75})));
+  EXPECT_TRUE(verify_hull(kLargeCube, hollow).encloses);
   EXPECT_TRUE(verify_hull(hollow, hollow).encloses);
-  const TriangleMesh overlapping = together(kSmall, moved(kSmall, {0.5, 0.5, 0.5}));
-  EXPECT_TRUE(verify_hull(kLarge, overlapping).encloses);
+  const TriangleMesh overlapping = together(kSmallCube, moved(kSmallCube, {0.5, 0.5, 0.5}));
+  EXPECT_TRUE(verify_hull(kLargeCube, overlapping).encloses);
   EXPECT_TRUE(verify_hull(overlapping, overlapping).encloses);
 }
 
@@ -145,7 +145,7 @@ TEST(VerifyHull, OfManyPartsThatPassThroughEachOtherTakesFewSteps) {
 }
 
 TEST(VerifyHull, OfAnOpenOriginalEveryTriangleMustBeCovered) {
-  const Verification found = verify_hull(kLarge, without_a_face(kSmall));
+  const Verification found = verify_hull(kLargeCube, without_a_face(kSmallCube));
   EXPECT_TRUE(found.encloses);
   EXPECT_EQ(found.proof, "coverage");
   EXPECT_FALSE(found.original_closed);
@@ -153,39 +153,39 @@ TEST(VerifyHull, OfAnOpenOriginalEveryTriangleMustBeCovered) {
   EXPECT_TRUE(std::isnan(found.original_volume));
   EXPECT_TRUE(std::isnan(found.void_ratio));
   EXPECT_TRUE(says(found, "not closed"));
-  const Verification stray = verify_hull(kLarge, with_a_stray_triangle(kSmall));
+  const Verification stray = verify_hull(kLargeCube, with_a_stray_triangle(kSmallCube));
   EXPECT_FALSE(stray.encloses);
   EXPECT_EQ(stray.faces_outside, 1u);
 }
 
 TEST(VerifyHull, AsksForTrianglesThatTogetherBoundNothing) {
   const TriangleMesh away = tetrahedron({9, 9, 9}, {10, 9, 9}, {9, 10, 9}, {9, 9, 10});
-  const TriangleMesh original = together(together(kSmall, away), inside_out(away));
-  const Verification found = verify_hull(kLarge, original);
+  const TriangleMesh original = together(together(kSmallCube, away), inside_out(away));
+  const Verification found = verify_hull(kLargeCube, original);
   EXPECT_FALSE(found.encloses);
   EXPECT_EQ(found.faces_outside, 8u);
-  EXPECT_TRUE(verify_hull(kLarge, original, HullSide::Outer, {.solid_only = true}).encloses);
+  EXPECT_TRUE(verify_hull(kLargeCube, original, HullSide::Outer, {.solid_only = true}).encloses);
 }
 
 TEST(VerifyHull, OfAnInnerHullTheOriginalMustEncloseIt) {
-  const Verification found = verify_hull(kSmall, kLarge, HullSide::Inner);
+  const Verification found = verify_hull(kSmallCube, kLargeCube, HullSide::Inner);
   EXPECT_TRUE(found.encloses);
   EXPECT_EQ(found.side, HullSide::Inner);
   EXPECT_DOUBLE_EQ(found.void_ratio, 1.0 / 27 - 1);
-  EXPECT_FALSE(verify_hull(kLarge, kSmall, HullSide::Inner).encloses);
+  EXPECT_FALSE(verify_hull(kLargeCube, kSmallCube, HullSide::Inner).encloses);
 }
 
 TEST(VerifyHull, RefusesWhatAnInnerHullCannotProve) {
-  EXPECT_THROW(verify_hull(kSmall, without_a_face(kLarge), HullSide::Inner), InputError);
+  EXPECT_THROW(verify_hull(kSmallCube, without_a_face(kLargeCube), HullSide::Inner), InputError);
 }
 
 TEST(VerifyHull, OfAnInnerHullEveryTriangleMustLieInTheSolid) {
   const TriangleMesh hull = box_with_a_spike_inside_out();
-  const Verification found = verify_hull(hull, kLarge, HullSide::Inner);
+  const Verification found = verify_hull(hull, kLargeCube, HullSide::Inner);
   EXPECT_FALSE(found.encloses);
   EXPECT_NE(found.why_not.find("folds of the hull"), std::string::npos) << found.why_not;
   EXPECT_GT(found.faces_outside, 0u);
-  EXPECT_TRUE(verify_hull(hull, kLarge, HullSide::Inner, {.solid_only = true}).encloses);
+  EXPECT_TRUE(verify_hull(hull, kLargeCube, HullSide::Inner, {.solid_only = true}).encloses);
   EXPECT_TRUE(verify_hull(hull, box({-1, -1, -2}, {2, 2, 2}), HullSide::Inner).encloses);
 }
 
@@ -201,7 +201,7 @@ TEST(VerifyHull, ReplaysAProgressiveHull) {
   const Verification open = verify_hull(hull, without_a_face(mesh));
   EXPECT_TRUE(open.encloses) << "the finest level covers the rest";
   EXPECT_EQ(open.proof, "replay");
-  const Verification foreign = verify_hull(hull, kSmall);
+  const Verification foreign = verify_hull(hull, kSmallCube);
   EXPECT_FALSE(foreign.encloses);
   EXPECT_FALSE(foreign.why_not.empty());
   const Verification stray = verify_hull(hull, with_a_stray_triangle(mesh));
@@ -269,12 +269,12 @@ TEST(VerifyHull, ReplaysAnInnerHullByItsOwnSide) {
 }
 
 TEST(VerifyHull, LeavesOutFacesThatAreNotFiniteOnlyIfThatIsAllowed) {
-  TriangleMesh original = kSmall;
+  TriangleMesh original = kSmallCube;
   const VertexId far = original.positions.push_back({std::numeric_limits<double>::infinity(), 0, 0});
   original.triangles.push_back({VertexId{0}, VertexId{1}, far});
-  EXPECT_FALSE(verify_hull(kLarge, original).encloses);
-  EXPECT_NE(verify_hull(kLarge, original).why_not.find("not finite"), std::string::npos);
-  const Verification found = verify_hull(kLarge, original, HullSide::Outer, {.finite_only = true});
+  EXPECT_FALSE(verify_hull(kLargeCube, original).encloses);
+  EXPECT_NE(verify_hull(kLargeCube, original).why_not.find("not finite"), std::string::npos);
+  const Verification found = verify_hull(kLargeCube, original, HullSide::Outer, {.finite_only = true});
   EXPECT_TRUE(found.encloses);
   EXPECT_EQ(found.non_finite_faces, 1u);
   EXPECT_TRUE(found.original_closed) << "what is left is";
@@ -314,12 +314,12 @@ TEST(VerifyHull, ComparesWithAClosedMeshThatStandsForAnOpenOne) {
   EXPECT_TRUE(inner.encloses && inner.encloses_solid == Answer::Yes && !inner.original_closed);
   EXPECT_EQ(inner.cap_faces, 2u);
   EXPECT_FALSE(verify_hull(box({0.5, 0.5, 0.5}, {1.5, 0.75, 0.75}), open, HullSide::Inner, with).encloses);
-  EXPECT_TRUE(verify_hull(kLarge, open, HullSide::Outer, with).encloses);
+  EXPECT_TRUE(verify_hull(kLargeCube, open, HullSide::Outer, with).encloses);
   TriangleMesh more = open;  // a fin that no face of the closed mesh stands for
   for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{-90, 0, 0}, Vec3{-90, 1, 0}}) more.positions.push_back(p);
   const auto n = static_cast<std::uint32_t>(more.vertex_count());
   more.triangles.push_back({VertexId{n - 3}, VertexId{n - 2}, VertexId{n - 1}});
-  const Verification fin = verify_hull(kLarge, more, HullSide::Outer, with);
+  const Verification fin = verify_hull(kLargeCube, more, HullSide::Outer, with);
   EXPECT_FALSE(fin.encloses);
   ASSERT_EQ(fin.worst.size(), 1u);
   EXPECT_EQ(fin.worst[0].face, FaceId{static_cast<std::uint32_t>(more.face_count() - 1)});
@@ -357,7 +357,7 @@ TEST(VerifyHull, IsNotAskedForTrianglesBesideAStandInWithSolidOnly) {
 }
 
 TEST(VerifyHull, TurnsMeshesThatAreInsideOutAndSaysSo) {
-  const Verification found = verify_hull(kLarge, inside_out(kSmall));
+  const Verification found = verify_hull(kLargeCube, inside_out(kSmallCube));
   EXPECT_TRUE(found.encloses);
   EXPECT_EQ(found.turned_original_faces, 12u);
   EXPECT_EQ(found.inverted_hull_faces, 0u);
@@ -385,21 +385,21 @@ TEST(OutwardSolid, TurnsComponentsOfNegativeVolumeThatAreNoCavities) {
   EXPECT_EQ(crossed.mesh, together(cube, inside_out(small_bar)));
   const TriangleMesh bar = inside_out(box({-0.5, -0.5, -9}, {0.5, 0.5, 9}));  // larger than the cube, and crosses it
   EXPECT_EQ(outward_solid(together(cube, bar), "it").mesh, together(cube, inside_out(bar)));
-  EXPECT_TRUE(says(verify_hull(kLarge, together(cube, bar)),
+  EXPECT_TRUE(says(verify_hull(kLargeCube, together(cube, bar)),
                    "24 faces of the original count as turned, as its volume is negative: 12 of these look inwards"));
 }
 
 TEST(VerifyHull, RefusesAHullThatIsInsideOut) {
-  const Verification all = verify_hull(inside_out(kLarge), kSmall);
+  const Verification all = verify_hull(inside_out(kLargeCube), kSmallCube);
   EXPECT_FALSE(all.encloses);
   EXPECT_EQ(all.inverted_hull_faces, 12u);
   EXPECT_NE(all.why_not.find("all faces of the hull look inwards"), std::string::npos) << all.why_not;
-  const Verification one = verify_hull(together(kLarge, inside_out(moved(kSmall, {9, 9, 9}))), kSmall);
+  const Verification one = verify_hull(together(kLargeCube, inside_out(moved(kSmallCube, {9, 9, 9}))), kSmallCube);
   EXPECT_FALSE(one.encloses);
   EXPECT_EQ(one.inverted_hull_faces, 12u);
   EXPECT_NE(one.why_not.find("12 faces of the hull look inwards"), std::string::npos) << one.why_not;
-  EXPECT_FALSE(verify_hull(inside_out(kSmall), kLarge, HullSide::Inner).encloses);
-  EXPECT_THROW(verify_hull(inside_out(without_a_face(kLarge)), kSmall), InputError);
+  EXPECT_FALSE(verify_hull(inside_out(kSmallCube), kLargeCube, HullSide::Inner).encloses);
+  EXPECT_THROW(verify_hull(inside_out(without_a_face(kLargeCube)), kSmallCube), InputError);
 }
 
 TEST(VerifyHull, DoesNotTurnAPartThatCrossesAnother) {
@@ -408,13 +408,13 @@ TEST(VerifyHull, DoesNotTurnAPartThatCrossesAnother) {
   const Verification found = verify_hull(together(cube, bar), in_the_hole);
   EXPECT_FALSE(found.encloses) << "the bar is a hole";
   EXPECT_EQ(found.inverted_hull_faces, 0u);
-  EXPECT_EQ(verify_hull(kLarge, together(cube, bar)).turned_original_faces, 0u);
+  EXPECT_EQ(verify_hull(kLargeCube, together(cube, bar)).turned_original_faces, 0u);
 }
 
 TEST(VerifyHull, RefusesCoordinatesThatOverflow) {
-  EXPECT_THROW(verify_hull(scaled(kLarge, 1e101), kSmall), InputError);
-  EXPECT_THROW(verify_hull(kLarge, scaled(kSmall, 1e101)), InputError);
-  EXPECT_TRUE(verify_hull(scaled(kLarge, 1e99), scaled(kSmall, 1e99)).encloses);
+  EXPECT_THROW(verify_hull(scaled(kLargeCube, 1e101), kSmallCube), InputError);
+  EXPECT_THROW(verify_hull(kLargeCube, scaled(kSmallCube, 1e101)), InputError);
+  EXPECT_TRUE(verify_hull(scaled(kLargeCube, 1e99), scaled(kSmallCube, 1e99)).encloses);
 }
 
 /// What is said of a convex hull by the planes of its faces alone.
