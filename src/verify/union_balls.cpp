@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -117,10 +118,14 @@ class Balls {
   Bvh bvh_;
 };
 
-bool have_common(const BallSet& a, const BallSet& b, const BallSet& c) {
-  return std::any_of(a.begin(), a.end(), [&](BallIndex i) {
-    return std::binary_search(b.begin(), b.end(), i) && std::binary_search(c.begin(), c.end(), i);
-  });
+/// Whether a ball holds all `points`; `holders_of` tells those of one.
+template <class Points, class HoldersOf>
+bool have_common(const Points& points, HoldersOf holders_of) {
+  const auto is_held_by = [&](BallIndex i) {
+    return [&, i](const auto& p) { return std::ranges::binary_search(std::invoke(holders_of, p), i); };
+  };
+  return std::ranges::any_of(std::invoke(holders_of, *points.begin()),
+                             [&](BallIndex i) { return std::ranges::all_of(points, is_held_by(i)); });
 }
 
 /// One triangle that no ball holds alone.
@@ -140,27 +145,25 @@ class TriangleCutter {
     for (const Corner& c : parts[0].corners)
       if (c.holders.empty()) return found(c, Decision::Outside);
     if (!projection_axis(triangle_)) parts[0].corners = ends_of(segment_of(triangle_), parts[0].corners);
-    const double coarse = kCoarse * longest_side(parts[0].corners).second;
+    const double coarse = kCoarse * side(parts[0].corners, longest_side(parts[0].corners));
     Decision decision = Decision::Covered;
     for (std::size_t count = 1; !parts.empty(); count += 2) {
       const auto [part, around] = std::move(parts.back());
       parts.pop_back();
-      if (have_common(part[0].holders, part[1].holders, part[2].holders)) continue;
+      if (have_common(part, &Corner::holders)) continue;
       const BallSet near = balls_.near(box_around(part), around);
-      const auto [i, length] = longest_side(part);
-      const int j = (i + 1) % 3, k = (i + 2) % 3;
-      Corner middle = corner(part[i].weights * 0.5 + part[j].weights * 0.5, near);
-      if (middle.holders.empty()) return found(middle, Decision::Outside);
-      const bool is_small = length < (decision == Decision::Covered ? smallest_ : std::max(smallest_, coarse));
+      Cut cut = cut_of(part, near);
+      for (const Corner* const c : {&cut.middle, &cut.end})
+        if (c->holders.empty()) return found(*c, Decision::Outside);
+      const bool is_small = cut.length < (decision == Decision::Covered ? smallest_ : std::max(smallest_, coarse));
       const bool is_over = !steps_.may_take(1 + around.size()) || count > kMostParts;
-      if (is_small || is_fine(middle.weights) || is_over) {
-        if (decision == Decision::Covered) decision = found(middle, Decision::Undecided);
+      if (is_small || is_fine(cut.middle.weights) || is_fine(cut.end.weights) || is_over) {
+        if (decision == Decision::Covered) decision = found(cut.middle, Decision::Undecided);
         if (is_over) break;
         continue;
       }
-      const bool is_segment = part[j].weights == part[k].weights;
-      parts.push_back({{part[i], middle, is_segment ? middle : part[k]}, near});
-      parts.push_back({{std::move(middle), part[j], part[k]}, near});
+      parts.push_back({std::move(cut.behind), near});
+      parts.push_back({std::move(cut.before), near});
     }
     return decision;
   }
@@ -169,25 +172,52 @@ class TriangleCutter {
   const Corner& point() const { return point_; }
 
  private:
+  using Corners = std::vector<Corner>;  // the two of a segment, or those of a triangle or trapezium in their order
+
   struct Part {
-    std::array<Corner, 3> corners;
+    Corners corners;
     BallSet around;  ///< with all balls that may hold a point of it
   };
+
+  /// From the middle of the longest side to `end`.
+  struct Cut {
+    double length;  ///< of that side
+    Corner middle, end;
+    Corners before, behind;
+  };
+
+  /// To the corner opposite, or to the middle of a second side that is long too: of a needle and its parts under n
+  /// balls, that makes n parts. Cuts to corners alone would make the power 1.6 of n.
+  Cut cut_of(const Corners& part, const BallSet& near) const {
+    const std::size_t n = part.size(), first = longest_side(part);
+    const auto at = [&](std::size_t k) -> const Corner& { return part[(first + k) % n]; };
+    const auto length = [&](std::size_t k) { return side(part, (first + k) % n); };
+    const auto middle = [&](std::size_t k) { return corner(at(k).weights * 0.5 + at(k + 1).weights * 0.5, near); };
+    const std::size_t second = n == 3 && length(1) < length(2) ? 2 : n == 3 ? 1 : 2;
+    const bool cuts_two = n == 4 || (n == 3 && length(second) > 2 * length(3 - second));
+    Cut cut{length(0), middle(0), cuts_two ? middle(second) : at(2), {}, {}};
+    cut.before = {cut.middle, at(1)};
+    if (cuts_two && second == 2) cut.before.push_back(at(2));
+    for (std::size_t k = cuts_two ? second + 1 : n; k <= n; ++k) cut.behind.push_back(at(k));
+    cut.behind.push_back(cut.middle);
+    if (n > 2) cut.before.push_back(cut.end), cut.behind.push_back(cut.end);
+    return cut;
+  }
 
   Decision found(const Corner& point, Decision decision) {
     point_ = point;
     return decision;
   }
 
-  /// A segment is cut as one, with the corners u, v, v. As a triangle it would have parts without number beside a point
-  /// in doubt: all those that lie on each other there.
-  std::array<Corner, 3> ends_of(const Segment& segment, const std::array<Corner, 3>& corners) const {
+  /// A segment is cut as one. As a triangle it would have parts without number beside a point in doubt: all those that
+  /// lie on each other there.
+  Corners ends_of(const Segment& segment, const Corners& corners) const {
     const auto at = [&](const Vec3& p) { return corners[p == triangle_.a ? 0 : p == triangle_.b ? 1 : 2]; };
-    return {at(segment.a), at(segment.b), at(segment.b)};
+    return {at(segment.a), at(segment.b)};
   }
 
   /// With all of their points, whose positions are rounded by at most 3 units in the last place of the largest number.
-  Box box_around(const std::array<Corner, 3>& corners) const {
+  Box box_around(const Corners& corners) const {
     const double rounding = 0x1p-49 * largest_ + std::numeric_limits<double>::min();
     const Vec3 all{rounding, rounding, rounding};
     Box box;
@@ -217,11 +247,13 @@ class TriangleCutter {
     return holds(ball, triangle_, corner.weights);
   }
 
-  static std::pair<int, double> longest_side(const std::array<Corner, 3>& corners) {
-    std::pair<int, double> longest{0, -1};
-    for (int i = 0; i < 3; ++i)
-      if (const double l = norm(corners[(i + 1) % 3].position - corners[i].position); l > longest.second)
-        longest = {i, l};
+  static double side(const Corners& corners, std::size_t i) {
+    return norm(corners[(i + 1) % corners.size()].position - corners[i].position);
+  }
+  static std::size_t longest_side(const Corners& corners) {
+    std::size_t longest = 0;
+    for (std::size_t i = 1; i < corners.size(); ++i)
+      if (side(corners, i) > side(corners, longest)) longest = i;
     return longest;
   }
 
@@ -441,8 +473,7 @@ class BallUnionJudge {
     Steps steps(meter_, most_steps(options_, original_.face_count()));
     for (const FaceId f : original_.triangles.ids()) {
       if (index(f) % 64 == 0) meter_.at(0.5 * index(f) / static_cast<double>(original_.face_count()));
-      const auto& [a, b, c] = original_.triangles[f];
-      if (have_common(holders[a], holders[b], holders[c])) continue;
+      if (have_common(original_.triangles[f], [&](VertexId v) -> const BallSet& { return holders[v]; })) continue;
       TriangleCutter cutter(original_.triangle(f), balls_, smallest_, steps);
       const Decision decision = cutter.decide();
       const auto& [weights, position, holders_there] = cutter.point();

@@ -330,11 +330,11 @@ TEST(UnionOfBalls, AreUndecidedAfterAsManyStepsAsAreAllowed) {
 }
 
 TEST(UnionOfBalls, TakeStepsForThoseNearAPartOfALongTriangleOnly) {
-  constexpr int kCount = 100;
+  constexpr int kCount = 1000;
   const TriangleMesh strip = make({{0, 0, 0}, {kCount, 0, 0}, {kCount, 0.1, 0}}, {{0, 1, 2}});
   std::vector<Ball> balls;
   for (int i = 0; i < kCount; ++i) balls.push_back({{i + 0.5, 0, 0}, 0.6});
-  const UnionVerification found = verify_union(balls, strip, false, {.max_steps = 2000 * kCount});
+  const UnionVerification found = verify_union(balls, strip, false, {.max_steps = 150 * kCount});
   EXPECT_TRUE(found.certified) << found.why_not;
 }
 
