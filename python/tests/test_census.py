@@ -91,6 +91,11 @@ def test_the_action_judges_a_repository(robots, tmp_path):
     write_ball(good / "ball.urdf", collision='<collision><geometry><sphere radius="1"/></geometry></collision>')
     code, told, table = run(good)
     assert code == 0 and "covered: 1 of 1 robots" in told and "| ball.urdf | 1 | 0 |" in table
+    write_ball(good / "bare.urdf")
+    code, told, table = run(good)
+    assert code == 1 and "covered: 1 of 2 robots; not bare.urdf" in told, "nothing covers it"
+    (tmp_path / "none").mkdir()
+    assert run(tmp_path / "none")[0] == 1, "nothing was checked"
 
 
 def test_what_is_wrong_is_one_error(tmp_path):
