@@ -5,6 +5,7 @@
 
 #include "arrays.h"
 #include "module.h"
+#include "prohull/detail/finite.h"
 #include "prohull/error.h"
 #include "render/compose.h"
 #include "render/draw.h"
@@ -22,11 +23,11 @@ constexpr std::size_t kMostFacesInside = 100'000;
 
 std::string png_of(render::PanelPlan plan, const TriangleMesh& mesh, const TriangleMesh* inside, int width, int height,
                    Watch& watch) {
-  std::vector<TriangleMesh> meshes{mesh};
+  std::vector<TriangleMesh> meshes{with_finite_faces(mesh)};
   if (inside) plan.line_width = 1;
   if (inside && inside->face_count() <= kMostFacesInside) {
     plan.inside = meshes.size();
-    meshes.push_back(*inside);
+    meshes.push_back(with_finite_faces(*inside));
   }
   const auto panels = render::compose({std::move(plan)}, meshes, {}, width, height);
   return render::encode_png(

@@ -438,7 +438,7 @@ def _jobs(named: dict[str, Any], out: pathlib.Path, suffix: str, options: dict[s
         try:
             is_path = _is_path(mesh)
             mesh = os.path.abspath(mesh) if is_path else mesh_of(mesh, keep_non_finite=True)
-            made_from = {"version": prohull.__version__, "options": json.loads(json.dumps(options, default=repr)),
+            made_from = {"version": prohull.__version__, "options": json.loads(json.dumps(options, default=_recorded)),
                          "mesh": {"path": mesh, **_state(mesh)} if is_path else {"digest": _digest(mesh)}}
             jobs.append(_Job(name, mesh, str(out / (name + suffix)), options, made_from))
         except Exception as error:
@@ -455,6 +455,11 @@ def _row_of_error(name: str, error: BaseException, row: type[_AnyRow]) -> _AnyRo
     why = "every worker that built it died, as by a crash or for want of memory"
     told = why if isinstance(error, distributed.KilledWorker) else error
     return row(name, "failed", message=f"{type(error).__name__}: {told}")
+
+
+def _recorded(value: Any) -> Any:
+    """Of an option: numpy's repr() leaves out numbers of long arrays."""
+    return value.tolist() if isinstance(value, (np.ndarray, np.generic)) else repr(value)
 
 
 def _state(path: str) -> dict[str, int]:

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _prohull
-from ._files import bytes_of, replaced
+from ._files import bytes_of, replaced, write_whole
 from ._meshes import Mesh
 from ._paths import BeyondLimits, Geometry, PathCheck, PathChecker, PathPair, path_checker, path_rows
 from ._prohull import InputError
@@ -309,14 +309,16 @@ class Hulls(Shown):
 
     def report_html(self, path: Path, *, check: Optional[Check] = None, motion: Optional[Motion] = None,
                     threads: int = 0, progress: Optional[Progress] = None) -> None:
-        """Writes a page with pictures and tables to a file.
+        """Writes a page with pictures and tables to a file, whole or not at all.
 
         check, motion: what check() and motion() have returned, to be on the page too.
+
+        Raises InputError if the file cannot be written.
         """
         checks, allow = (None, 0.0) if check is None else (check._core, check.allow)
         page = self._core.report_html(checks, allow, None if motion is None else motion._core,
                                       _arrays.count("threads", threads), progress)
-        pathlib.Path(_arrays.path(path)).write_text(page, encoding="utf-8")
+        write_whole(pathlib.Path(_arrays.path(path)), page)
 
     def _view_parts(self) -> list[Part]:
         return [Part(self.robot.name, self._core.shown(), lambda *size: self.picture((), *size))]

@@ -118,6 +118,18 @@ def test_a_killed_worker_costs_nothing_but_time(client, folder, tmp_path):
 
 
 @needs_dask
+def test_long_arrays_of_options_are_compared_number_by_number(client, tmp_path):
+    part, tolerances = prohull.sample("sphere", 2000), np.full(2000, np.inf)
+    tolerances = tolerances[:len(part.faces)]
+    built = [prohull.dask.build_folder(client, [part], tmp_path, 100, suffix=".ply", progress=None, tolerances=tolerances)[0]]
+    tolerances = tolerances.copy()
+    tolerances[1000] = 0
+    for _ in range(2):
+        built += prohull.dask.build_folder(client, [part], tmp_path, 100, suffix=".ply", progress=None, tolerances=tolerances)
+    assert [row.status for row in built] == ["built", "built", "kept"]
+
+
+@needs_dask
 def test_what_is_finished_is_kept(client, folder, tmp_path, monkeypatch):
     options = dict(target_faces=300, progress=None)
     few = [folder / f"mesh{i}.off" for i in range(3)]

@@ -94,6 +94,8 @@ def test_a_saved_robot_passes_its_check(robot, hulls, tmp_path):
     assert safe.check().passes
     hulls.report_html(tmp_path / "report.html", check=shipped, motion=hulls.motion(20))
     assert "crane" in (tmp_path / "report.html").read_text(encoding="utf-8")
+    with pytest.raises(prohull.InputError, match="No such file"):
+        hulls.report_html(tmp_path / "nowhere" / "report.html")
     with pytest.raises(prohull.InputError, match="would be overwritten"):
         hulls.save(path_of(robot))
 

@@ -123,6 +123,16 @@ def test_files_are_shown_under_their_names(hull, pony, tmp_path):
 
 
 @needs_page
+def test_faces_that_are_not_finite_are_left_out(tmp_path, cube):
+    vertices, faces = cube
+    broken = prohull.Mesh([*vertices, (np.nan, 0, 0)], [*faces, (0, 1, len(vertices))])
+    shown = prohull.view(broken)
+    assert scene(shown.html)["objects"][0]["left_out"] == 1 and shown.picture == prohull.view(cube).picture
+    with pytest.raises(prohull.InputError, match="no finite face"):
+        prohull.view(prohull.Mesh(broken.vertices, broken.faces[-1:]))
+
+
+@needs_page
 def test_covers_are_shown_with_what_they_cover(pieces, pony):
     shown = prohull.view(pieces)
     assert objects(shown) == [("convex pieces", "mesh"), ("original", "mesh")]
