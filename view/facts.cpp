@@ -1,5 +1,7 @@
 #include "view/facts.h"
 
+#include "prohull/detail/summary.h"
+#include "prohull/detail/text.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
@@ -11,48 +13,65 @@ namespace {
 
 constexpr std::size_t kMostOffenders = 20;
 
-nlohmann::json facts_of(const Verification& found) {
-  return {{"encloses", found.encloses},
-          {"proof", std::string(found.proof)},
-          {"side", std::string(name_of(hull_side_names(), found.side))},
-          {"original_closed", found.original_closed},
-          {"every_triangle", found.covers_triangles != Answer::NotAsked},
-          {"why_not", found.why_not},
-          {"splits", found.splits},
-          {"signs", found.signs},
-          {"faces_outside", found.faces_outside},
-          {"worst", found.worst},
-          {"faces_beside_solid", found.faces_beside_solid},
-          {"hull_volume", found.hull_volume},
-          {"original_volume", found.original_volume},
-          {"void_ratio", found.void_ratio},
-          {"self_intersections", found.self_intersections},
-          {"notes", found.notes}};
-}
-
-nlohmann::json facts_of(const UnionVerification& found) {
-  return {{"encloses", found.certified},
-          {"proof", "union"},
-          {"original_closed", found.original_closed},
-          {"why_not", found.why_not},
-          {"faces_outside", found.faces_outside},
-          {"worst", found.worst},
-          {"hull_volume", found.union_volume},
-          {"original_volume", found.original_volume},
-          {"void_ratio", found.void_ratio},
-          {"notes", found.notes}};
+/// Its answer, in the words of `prohull verify`: `told` is a claim(), and `why_not` follows where it is not yes.
+nlohmann::json answer_facts(const Verdict& verdict, const std::string& told) {
+  return {{"answer", verdict.certified ? "yes" : verdict.is_undecided() ? "undecided" : "no"},
+          {"told", told + (verdict.is_yes() && !verdict.certified ? ", but there is more" : "")},
+          {"why_not", verdict.why_not},
+          {"proof", std::string(verdict.proof)}};
 }
 
 /// Verifies whatever is shown.
 struct Verify {
-  nlohmann::json operator()(const TriangleMesh& hull) const { return facts_of(verify_hull(hull, original, side, how)); }
-  nlohmann::json operator()(const ProgressiveHull& hull) const { return facts_of(verify_hull(hull, original, how)); }
-  nlohmann::json operator()(const Pieces& pieces) const { return facts_of(verify_union(pieces, original, how)); }
-  nlohmann::json operator()(const Balls& balls) const { return facts_of(verify_union(balls, original, false, how)); }
-
+  nlohmann::json operator()(const TriangleMesh& hull) const {
+    return facts_of(verify_hull(hull, original.mesh, shown.side.value_or(side), how));
+  }
+  nlohmann::json operator()(const ProgressiveHull& hull) const {
+    return facts_of(verify_hull(hull, original.mesh, how));
+  }
+  nlohmann::json operator()(const Pieces& pieces) const {
+    return facts_of(verify_union(pieces, original.mesh, how), counted(pieces.size(), "piece"));
+  }
+  nlohmann::json operator()(const Balls& balls) const {
+    return facts_of(verify_union(balls, original.mesh, false, how), counted(balls.size(), "sphere"));
+  }
   nlohmann::json operator()(const ShownRobot&) const { return {}; }
 
-  const TriangleMesh& original;
+  nlohmann::json facts_of(const Verification& found) const {
+    nlohmann::json facts = answer_facts(found, claim(found, shown.name, original.name));
+    facts.update({{"encloses", found.encloses},
+                  {"side", std::string(name_of(hull_side_names(), found.side))},
+                  {"every_level", is_of_every_level(found)},
+                  {"solid_only", found.covers_triangles == Answer::NotAsked},
+                  {"splits", found.splits},
+                  {"signs", found.signs},
+                  {"faces_outside", found.faces_outside},
+                  {"worst", found.worst},
+                  {"hull_volume", found.hull_volume},
+                  {"original_volume", found.original_volume},
+                  {"void_ratio", found.void_ratio},
+                  {"notes", found.notes}});
+    if (has_failed_replay(found))
+      facts["answer"] = "no";
+    else
+      facts["self_intersections"] = found.self_intersections;
+    return facts;
+  }
+
+  nlohmann::json facts_of(const UnionVerification& found, const std::string& parts) const {
+    nlohmann::json facts = answer_facts(found, claim(found, "the union of " + parts, original.name));
+    facts.update({{"encloses", found.certified},
+                  {"faces_outside", found.faces_outside},
+                  {"worst", found.worst},
+                  {"hull_volume", found.union_volume},
+                  {"original_volume", found.original_volume},
+                  {"void_ratio", found.void_ratio},
+                  {"notes", found.notes}});
+    return facts;
+  }
+
+  const Shown& shown;
+  const Original& original;
   HullSide side;
   VerificationOptions how;
 };
@@ -74,11 +93,11 @@ nlohmann::json facts_of(const DistanceBounds& bounds) {
 
 }  // namespace
 
-nlohmann::json verification_facts(const Shown& shown, const TriangleMesh& original, const PageOptions& options) {
+nlohmann::json verification_facts(const Shown& shown, const Original& original, const PageOptions& options) {
   const VerificationOptions how{
       .solid_only = options.solid_only, .max_offenders = kMostOffenders, .progress = options.progress};
   try {
-    return std::visit(Verify{original, shown.side.value_or(options.side), how}, shown.shape);
+    return std::visit(Verify{shown, original, options.side, how}, shown.shape);
   } catch (const InputError& error) {
     return {{"refused", error.what()}};
   }

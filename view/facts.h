@@ -8,7 +8,7 @@
 namespace prohull::view {
 
 /// What `prohull verify` finds, for pieces and balls with --union; or why it cannot be asked.
-nlohmann::json verification_facts(const Shown& shown, const TriangleMesh& original, const PageOptions& options);
+nlohmann::json verification_facts(const Shown& shown, const Original& original, const PageOptions& options);
 
 /// Proven bounds of how far it is from the original, and the farthest point. Of pieces and balls, how far they reach
 /// out of it.

@@ -27,7 +27,7 @@ using nlohmann::json;
 
 /// Faces and vertices keep their order, so that the page knows their numbers.
 TriangleMesh drawable(const TriangleMesh& mesh, const std::string& name) {
-  TriangleMesh finite = without_unused_vertices(with_finite_faces(mesh));
+  TriangleMesh finite = finite_part(mesh);
   if (finite.face_count() == 0) throw InputError(Defect::EmptyMesh, name + ": it has no finite face to show");
   return finite;
 }
@@ -69,8 +69,8 @@ class Writer {
   Writer(const std::vector<Shown>& shown, const std::optional<Original>& original, const PageOptions& options)
       : options_(options), grid_(scene_box(shown, original)) {
     if (original) {
-      given_ = &original->mesh;
-      reference_.emplace(drawable(*given_, original->name));
+      given_ = &*original;
+      reference_.emplace(drawable(given_->mesh, given_->name));
     }
     json objects = json::array();
     for (const Shown& s : shown) {
@@ -79,7 +79,7 @@ class Writer {
       objects.push_back(facts);
     }
     if (original) {
-      json facts = mesh_object(*given_, reference_->mesh);
+      json facts = mesh_object(given_->mesh, reference_->mesh);
       facts["name"] = original->name;
       facts["role"] = "original";
       objects.push_back(facts);
@@ -111,8 +111,8 @@ class Writer {
 
   json object(const Shown& shown, const ProgressiveHull& hull) {
     if (reference_) return levels_object(shown, hull, *given_, *reference_);
-    const TriangleMesh finest = hull.original();
-    return levels_object(shown, hull, finest, Reference(finest));
+    const Original finest{"the finest level", hull.original()};
+    return levels_object(shown, hull, finest, Reference(finest.mesh));
   }
 
   json object(const Shown& shown, const Pieces& pieces) {
@@ -186,7 +186,7 @@ class Writer {
             {"triangles", blocks_.running(triangles, 1)}};
   }
 
-  json levels_object(const Shown& shown, const ProgressiveHull& hull, const TriangleMesh& given,
+  json levels_object(const Shown& shown, const ProgressiveHull& hull, const Original& given,
                      const Reference& reference) {
     const bool is_own = !reference_;
     json facts = levels_facts(hull, distances_of(hull, reference, is_own), grid_, blocks_);
@@ -272,7 +272,7 @@ class Writer {
   }
 
   const PageOptions& options_;
-  const TriangleMesh* given_ = nullptr;  // the original, as it was given
+  const Original* given_ = nullptr;  // the original, as it was given
   std::optional<Reference> reference_;   // the same, as it is drawn
   Grid grid_;
   Blocks blocks_;

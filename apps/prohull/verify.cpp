@@ -57,19 +57,11 @@ Verification verify(const VerifyOptions& options, const MeshOrHull& hull, const 
   }
 }
 
-/// Then nothing else was looked at.
-bool has_failed_replay(const Verification& found) {
-  return found.proof == "replay" && !found.encloses && std::isnan(found.hull_volume);
-}
-
 /// "yes: hull.stl encloses part.stl", or why not.
 std::string verdict(const Verification& found, const SizeComparison& sizes, const VerifyOptions& options, double gap) {
   const std::string hull = input_name(options.hull), original = input_name(options.original);
-  const bool inner = found.side == HullSide::Inner, replayed = found.proof == "replay";
-  if (has_failed_replay(found)) return fmt::format("NO: {} proves nothing about {}: {}", hull, original, found.why_not);
-  const bool base_only = !found.encloses || found.faces_beside_solid > 0;
-  const std::string levels = replayed ? (base_only ? "the base mesh of " : "every level of ") + hull : hull;
-  const std::string what = claim(found, levels, original);
+  const std::string what = claim(found, hull, original);
+  if (has_failed_replay(found)) return fmt::format("NO: {}: {}", what, found.why_not);
   if (!found.encloses && !(found.is_undecided() && found.faces_too_near > 0))
     return fmt::format("{}: {}{}: {}", found.is_undecided() ? "UNDECIDED" : "NO", what,
                        found.is_yes() ? ", but there is more" : "", found.why_not);
@@ -79,12 +71,8 @@ std::string verdict(const Verification& found, const SizeComparison& sizes, cons
     return fmt::format("NO: {}, but {} does not keep the gap of {:.{}g}: {}", what, hull, gap,
                        digits_apart(gap, found.least_distance, 9), found.why_not);
   std::string how = ", exactly";
-  if (replayed)
-    how = fmt::format("{}; {} splits replayed, {} signs exact",
-                      !base_only || found.encloses_solid == Answer::NotAsked ? ""
-                      : inner                                                ? ", and the solid of every level"
-                                                                             : ", and every level its solid",
-                      grouped(found.splits), grouped(found.signs));
+  if (found.proof == "replay")
+    how = fmt::format("; {} splits replayed, {} signs exact", grouped(found.splits), grouped(found.signs));
   if (gap > 0) how = fmt::format(" and keeps a gap of {:.9g}", gap) + how;
   if (sizes.is_doubtful() && !options.any_scale) return fmt::format("UNITS: {}{}, but {}", what, how, sizes.doubt());
   return fmt::format("yes: {}{}", what, how);

@@ -138,7 +138,7 @@ test('a dropped file of levels shows them, and tells of each what the command te
   await settled(page);
   assert.equal(await text(page, 'problem'), '');
   assert.match(await text(page, 'found'), /^Levels of an inner hull, up to 2,976 faces\. The part that they were made of is not in the file: /);
-  assert.match(await text(page, 'content'), /Encloses.*Every level: 1,\d{3} splits replayed/);
+  assert.match(await text(page, 'content'), /every level of .* is enclosed by the finest level; 1,\d{3} splits replayed/);
   assert.ok(await page.isVisible('#want-to') && await page.isHidden('#want-faces') && await page.isHidden('#save-levels') && await page.isHidden('#save-certificate'));
   assert.match((await told())[0], /^core_level\.ply: 200 faces of 2,976$/);
   assert.equal(await text(page, 'command'), 'prohull lod core.phull -o core_level.ply');
@@ -413,7 +413,7 @@ test('several meshes become a hull each, told of and written as the command does
   assert.match((await table()).find(([name]) => name === 'open.off').at(-1), /^yes, with openings closed/);
   await page.click('#meshes tr:last-child button');
   await page.waitForSelector('#meshes tr:last-child button[aria-pressed=true]');
-  assert.match(await text(page, 'content'), /torus\.stl encloses parts\/torus\.ply: decided exactly/);
+  assert.match(await text(page, 'content'), /torus\.stl encloses parts\/torus\.ply, exactly/);
   assert.ok(await page.isHidden('#want-levels') && await page.isHidden('#want-make') && await page.isVisible('#want-side'));
   await page.selectOption('#want-to', 'obj');
   await settled(page);
@@ -464,7 +464,7 @@ test('the folder of a robot becomes a zip with a certified hull of each mesh, an
     ['base_link', 'link1', 'link2', 'link2'].map((link) => [link, '100', 'yes']));
   await page.click('#links tr:last-child button');
   await page.waitForSelector('#links tr:last-child button[aria-pressed=true]');
-  assert.match(await text(page, 'content'), /link2_2_hull\.stl covers arm\/meshes\/visual\/link2_cover\.stl: decided exactly/);
+  assert.match(await text(page, 'content'), /link2_2_hull\.stl covers every triangle of arm\/meshes\/visual\/link2_cover\.stl, exactly/);
   const zip = await saved(page, 'save-robot'), own = join(scratch, 'arm_own');
   assert.equal(basename(zip.path), 'arm_hulls.zip');
   run('urdf', join(folder, 'arm.urdf'), '-o', own, '--faces', '100', '--configurations', '0', '--prove', '0', '--no-pictures', '--no-cache');
@@ -495,7 +495,7 @@ test('the hulls of a robot are of its collision meshes, if the form says so', {s
     await (from === 'collision' ? droppedFolder(page, folder) : page.selectOption('#want-from', from));
     await settled(page);
     assert.equal(await text(page, 'problem'), '');
-    assert.match(await text(page, 'content'), new RegExp(`a_hull\\.stl encloses ${has}: decided exactly`));
+    assert.match(await text(page, 'content'), new RegExp(`a_hull\\.stl encloses ${has}, exactly`));
     const files = createRequire(import.meta.url)('fflate').unzipSync((await saved(page, 'save-robot')).bytes);
     rmSync(own, {recursive: true, force: true});
     run('urdf', join(folder, 'two.urdf'), '-o', own, '--from', from, '--faces', '60', '--configurations', '0', '--prove', '0', '--no-pictures', '--no-cache');

@@ -9,6 +9,7 @@
 #include "module.h"
 #include "prohull/detail/closed_original.h"
 #include "prohull/detail/float32_hull.h"
+#include "prohull/detail/summary.h"
 #include "prohull/distance.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
@@ -31,7 +32,7 @@ py::dict facts_of(const Verification& found, double gap) {
   facts["cavities"] = found.cavities;
   facts["faces_undecided"] = found.faces_undecided;
   facts["faces_beside_solid"] = found.faces_beside_solid;
-  facts["self_intersections"] = found.self_intersections;
+  facts["self_intersections"] = has_failed_replay(found) ? py::object(py::none()) : py::int_(found.self_intersections);
   facts["original_volume"] = found.original_volume;
   facts["void_ratio"] = found.void_ratio;
   facts["notes"] = found.notes;

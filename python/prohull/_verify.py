@@ -89,7 +89,7 @@ class Verification(Verdict):
     cavities: int  #: number of hollows of the outer mesh that leave a part of the inner one uncovered; they are looked for only if faces_outside is 0
     faces_undecided: int  #: number of faces whose decision would take more steps; if there are any, `certified` is false
     faces_beside_solid: int  #: number of faces of the inner mesh that bound no part of its solid, as in folds
-    self_intersections: int  #: number of pairs of faces of the hull that meet beyond what they share; exact
+    self_intersections: Optional[int]  #: number of pairs of faces of the hull that meet beyond what they share; exact; None if a replay failed
     original_volume: float  #: of the solid, in cubic units; overlaps count once; nan if it is not known
     void_ratio: float  #: volume of the hull / volume of the original - 1; nan if one of the two is not known
     notes: list[str]  #: what was left out of the original or turned, and units that seem to differ

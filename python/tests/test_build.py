@@ -305,7 +305,9 @@ def test_verify_names_offenders(pony):
 def test_verify_says_how_it_decided(pony, hull, tmp_path):
     hull.save(tmp_path / "hull.phull")
     replayed = prohull.verify(tmp_path / "hull.phull", pony)
-    assert replayed and replayed.proof == "replay" and replayed.void_ratio == hull.void_ratio
+    assert replayed and replayed.proof == "replay" and replayed.void_ratio == hull.void_ratio and replayed.self_intersections == 0
+    other = prohull.verify(tmp_path / "hull.phull", prohull.sample("box", 100))
+    assert not other and other.self_intersections is None, "nobody has counted them"
     assert prohull.verify(hull, pony).proof == "enclosure"
     scaled = prohull.verify(prohull.Mesh(1000 * hull.vertices, hull.faces), pony)
     assert scaled and "times larger" in scaled.notes[0]

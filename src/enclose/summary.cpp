@@ -134,6 +134,24 @@ std::string claim(const Verdict& verdict, const std::string& subject, const std:
                      finite, object, asks_solid ? ", and its inside" : "", asks_solid ? caps_of(verdict) : "");
 }
 
+std::string claim(const Verification& found, const std::string& hull, const std::string& original) {
+  const Verdict& verdict = found;
+  if (found.proof != "replay") return claim(verdict, hull, original);
+  if (has_failed_replay(found)) return fmt::format("{} proves nothing about {}", hull, original);
+  if (is_of_every_level(found)) return claim(verdict, "every level of " + hull, original);
+  const bool has_solids = found.encloses && found.encloses_solid != Answer::NotAsked;
+  return claim(verdict, "the base mesh of " + hull, original) +
+         (!has_solids                       ? ""
+          : found.side == HullSide::Inner ? ", and the solid of every level"
+                                          : ", and every level its solid");
+}
+
+bool is_of_every_level(const Verification& found) { return found.encloses && found.faces_beside_solid == 0; }
+
+bool has_failed_replay(const Verification& found) {
+  return found.proof == "replay" && !found.encloses && std::isnan(found.hull_volume);
+}
+
 std::string certificate_of(const Verdict& verdict, const std::string& subject, const std::string& object) {
   if (verdict.certified) return "yes, " + claim(verdict, subject, object);
   return "NO, so nothing was written: " + verdict.why_not;

@@ -276,7 +276,7 @@ const tests = {
   async 'an inner hull is enclosed'() {
     run('view', at('inner.phull'), at('pony.phull'), '--original', at('pony.ply'), '-o', at('inner.html'));
     const page = await opened('inner.html');
-    assert.match(await text(page, 'verdict'), /Encloses/);
+    assert.match(await text(page, 'verdict'), /^✓Yesevery level of inner\.phull is enclosed by pony\.ply; .* splits replayed, .* signs exact\.$/);
     assert.match(await text(page, 'content'), /enclosed by the original/);
     assert.ok((await text(page, 'void')).startsWith('-'), 'an inner hull has less volume');
     await page.selectOption('#active', '1');
@@ -287,7 +287,7 @@ const tests = {
   async 'what lies outside is listed, and a click goes there'() {
     run('view', at('inner.stl'), '--original', at('pony.ply'), '-o', at('outside.html'));
     const page = await opened('outside.html');
-    assert.match(await text(page, 'verdict'), /✗.*Does not enclose/);
+    assert.match(await text(page, 'verdict'), /^✗Noinner\.stl does not enclose pony\.ply: /);
     const worst = await page.evaluate(() => prohullView.active.verification.worst);
     assert.equal(await page.locator('#outside li').count(), worst.length);
     const before = await picture(page);
@@ -352,7 +352,7 @@ const tests = {
       const [x, y, z] = pointOf(told.Position), away = Math.hypot(x - Number(told.Sphere), y, z);
       assert.ok(away <= 0.4 + 1e-6 && away > 0.39 && !told.Face, 'it is on the sphere that is told, where that is while together');
     };
-    for (const [file, parts, verdict, checkPart] of [['pieces.html', '4 pieces', /^✓Covers/, checkPiece], ['spheres.html', '3 spheres', /^✗Does not cover/, checkSphere]]) {
+    for (const [file, parts, verdict, checkPart] of [['pieces.html', '4 pieces', /^✓Yesthe union of 4 pieces encloses .*, exactly\.$/, checkPiece], ['spheres.html', '3 spheres', /^✗Nothe union of 3 spheres does not cover every triangle of /, checkSphere]]) {
       const page = await opened(file);
       assert.match(await text(page, 'verdict'), verdict);
       assert.ok((await text(page, 'facts')).includes(`Parts${parts}`));
@@ -695,7 +695,7 @@ const tests = {
     fs.appendFileSync(at('stray.obj'), '\nv 3 0 0\nv 4 0 0\nv 4 1 0\nf -3 -2 -1\n');
     run('view', at('pony.phull'), '--original', at('stray.obj'), '-o', at('other.html'));
     const other = await opened('other.html', {fragment: '#l=1000'});
-    assert.match(await text(other, 'verdict'), /Does not cover/);
+    assert.match(await text(other, 'verdict'), /^✗No.* does not cover every triangle of stray\.obj: /);
     assert.match(await text(other, 'encloses'), /not proven/);  // one level decides nothing about the others
     assert.match(await text(other, 'content'), /1 face lies outside of some levels/);
     await closed(other);

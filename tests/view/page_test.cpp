@@ -5,15 +5,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "meshes.h"
+#include "prohull/enclosing_hull.h"
 #include "prohull/error.h"
 #include "prohull/hull_builder.h"
 #include "prohull/sample.h"
 #include "view/blocks.h"
 #include "view/levels.h"
 #include "view/robot.h"
+#include "view/scene.h"
 #include "view/shared_faces.h"
 
 namespace prohull::view {
@@ -123,6 +126,53 @@ TEST(ViewRobot, SaysHowJointsMove) {
   EXPECT_EQ(joints[0]["rest"], 2);
   EXPECT_EQ(joints[1]["motion"], "slide");
   EXPECT_EQ(joints[1]["mimic"]["multiplier"], 2);
+}
+
+nlohmann::json verdict_of(Shown shown, const Original& original, const PageOptions& options = {}) {
+  return scene_of({std::move(shown)}, original, options).facts["objects"][0]["verification"];
+}
+
+TEST(ViewScene, SaysNoMoreThanVerifyDoes) {
+  const TriangleMesh box = make_sample("box", 100);
+  Original finned{"finned.off", box};
+  const VertexId a = finned.mesh.positions.push_back({0, 0, 0}), b = finned.mesh.positions.push_back({0.1, 0, 0}),
+                 c = finned.mesh.positions.push_back({0, 0, 9});
+  finned.mesh.triangles.push_back({a, b, c});
+  finned.mesh.triangles.push_back({c, b, a});
+  EXPECT_EQ(verdict_of({"hull.off", box}, finned)["told"], "hull.off does not enclose finned.off");
+  const nlohmann::json solid = verdict_of({"hull.off", box}, finned, {.solid_only = true});
+  EXPECT_EQ(solid["answer"], "yes");
+  EXPECT_EQ(solid["told"], "hull.off encloses the solid of finned.off");
+
+  const nlohmann::json levels = verdict_of({"h.phull", small_hull()}, {"torus", make_sample("torus", 600)});
+  EXPECT_EQ(levels["told"], "every level of h.phull encloses torus");
+  EXPECT_TRUE(levels.contains("self_intersections"));
+  const nlohmann::json other = verdict_of({"h.phull", small_hull()}, {"box.off", box});
+  EXPECT_EQ(other["answer"], "no");
+  EXPECT_EQ(other["told"], "h.phull proves nothing about box.off");
+  EXPECT_FALSE(other.contains("self_intersections")) << "nobody has counted them";
+}
+
+// Of a sphere whose top was pushed through its bottom, finer levels leave folds uncovered.
+TEST(ViewScene, SaysOfWhichLevelsItIsKnown) {
+  Original folded{"folded.obj", make_sample("sphere", 600)};
+  *std::ranges::max_element(folded.mesh.positions, {}, &Vec3::z) = {0.03, 0.05, -1.001};
+  const EnclosingHull hull = enclosing_hull(folded.mesh, 12, {.levels = true});
+  const nlohmann::json found = verdict_of({"h.phull", hull.levels.value().with_finest_level(FinestLevel::Repaired)}, folded);
+  EXPECT_EQ(found["answer"], "yes");
+  EXPECT_EQ(found["told"], "the base mesh of h.phull encloses folded.obj, and every level its solid");
+  EXPECT_EQ(found["every_level"], false);
+}
+
+// Three balls meet in one point of the triangle, with nothing to spare.
+TEST(ViewScene, WhatIsUndecidedIsNotDenied) {
+  Balls balls;
+  for (const double turn : {1.0, 5.0, 9.0})
+    balls.push_back({{std::cos(turn * std::numbers::pi / 6), std::sin(turn * std::numbers::pi / 6), 0}, 1});
+  const TriangleMesh sheet{{{-0.5, -0.4, 0}, {0.5, -0.4, 0}, {0, 0.5, 0}}, {{VertexId{0}, VertexId{1}, VertexId{2}}}};
+  const nlohmann::json found = verdict_of({"balls.yaml", balls}, {"sheet.off", sheet});
+  EXPECT_EQ(found["answer"], "undecided");
+  EXPECT_EQ(found["told"], "the union of 3 spheres may cover every triangle of sheet.off");
 }
 
 class ViewPage : public testing::Test {

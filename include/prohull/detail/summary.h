@@ -16,6 +16,12 @@ namespace prohull {
 /// of an inner hull "hull.stl is enclosed by part.stl"; and what closes the openings of an original that is not closed.
 /// docs/proofs.md has these words.
 std::string claim(const Verdict& verdict, const std::string& subject, const std::string& object);
+/// The same of a hull. Of a progressive one it tells of which levels that is known.
+std::string claim(const Verification& found, const std::string& hull, const std::string& original);
+/// Of a progressive hull: all of that is known of every level, and not of the base mesh alone.
+bool is_of_every_level(const Verification& found);
+/// Of a progressive hull that proves nothing: nothing else was looked at.
+bool has_failed_replay(const Verification& found);
 
 /// What every summary says behind "certified: ": "yes, the file as written encloses the original", or why not.
 std::string certificate_of(const Verdict& verdict, const std::string& subject = "the file as written",

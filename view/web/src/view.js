@@ -43,7 +43,6 @@ export class View {
     this.open();
   }
 
-  get originalName() { return this.original?.name ?? 'the finest level'; }
   get allBodies() { return [...this.bodies.map((entry) => entry.body), ...(this.base ? [this.base] : [])]; }
   /** The same, those of links one by one. */
   get surfaces() { return this.allBodies.flatMap((body) => body.bodies ?? [body]); }

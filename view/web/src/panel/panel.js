@@ -28,24 +28,17 @@ function verdictOfMesh({watertight, defects, first_defect: first}, alone) {
   return ['bad', '✗', 'Not watertight', `${counts}.${first ? ` The first: ${first}.` : ''}`];
 }
 
+const ANSWERS = {yes: ['good', '✓', 'Yes'], no: ['bad', '✗', 'No'], undecided: ['open', '?', 'Undecided']};
+
 /** What `prohull verify` would say, as a mark, a word and why. */
-export function verdictOf(object, original, alone = 'It is compared with nothing: --original adds a mesh.') {
+export function verdictOf(object, alone = 'It is compared with nothing: --original adds a mesh.') {
   const v = object.verification;
   if (object.robot) return ['open', '–', 'Robot', 'prohull urdf --check decides whether the collision geometry covers the visual geometry.'];
   if (!v && object.facts && !object.union) return verdictOfMesh(object.facts, alone);
   if (!v) return ['open', '–', 'Not compared', 'No original mesh is in this page: --original adds it.'];
   if (v.refused) return ['open', '?', 'Not decided', v.refused];
-  const [subject, other] = v.side === 'inner' ? [original, object.name] : [object.name, original];
-  const verb = v.original_closed ? 'enclose' : 'cover';
-  if (v.proof === 'union') {
-    return v.encloses ? ['good', '✓', 'Covers', `${object.union} cover ${other} together: decided exactly.`]
-                      : ['bad', '✗', 'Does not cover', v.why_not];
-  }
-  if (!v.encloses) return ['bad', '✗', `Does not ${verb}`, v.why_not];
-  const replayed = v.proof === 'replay' &&
-      `Every level: ${counted(v.splits, 'split', 'splits')} replayed, ${counted(v.signs, 'sign', 'signs')} exact.`;
-  return ['good', '✓', v.original_closed ? 'Encloses' : 'Covers every triangle',
-    replayed || `${subject} ${verb}s ${other}: decided exactly.`];
+  const how = v.proof === 'replay' ? `; ${counted(v.splits, 'split', 'splits')} replayed, ${counted(v.signs, 'sign', 'signs')} exact` : ', exactly';
+  return [...ANSWERS[v.answer], `${v.told}${v.answer === 'yes' ? how : `: ${v.why_not}`}.`];
 }
 
 export class Panel {
@@ -69,7 +62,7 @@ export class Panel {
 
   heading() {
     const {view} = this;
-    const [kind, mark, word, why] = verdictOf(this.object, view.originalName, view.scene.alone);
+    const [kind, mark, word, why] = verdictOf(this.object, view.scene.alone);
     const choices = view.hulls.length > 1 && el('div', {class: 'row'},
         el('label', {}, 'Numbers of ', el('select', {id: 'active', onchange: (e) => view.activate(Number(e.target.value))},
             ...view.hulls.map((hull, i) => el('option', {value: i, selected: hull === this.object}, hull.name)))));
@@ -101,8 +94,15 @@ export class Panel {
             box(live.faces, el('span', {}, 'faces')),
             box(live.void, el('span', {title: 'Volume between this level and the original, as a share of the original'}, 'void')),
             box(live.distance, el('span', {title: 'No point of this level is farther from the original'}, 'distance, proven')),
-            box(live.encloses, el('span', {}, this.object.side === 'inner' ? 'enclosed by the original' : 'encloses the original'))),
+            box(live.encloses, el('span', {}, this.enclosed))),
         el('div', {class: 'row'}, live.play, live.wanted, live.stops));
+  }
+
+  /** What is asked of each level. */
+  get enclosed() {
+    const {side, verification: {solid_only: isSolid}} = this.object;
+    if (side === 'inner') return `${isSolid ? 'its solid is ' : ''}enclosed by the original`;
+    return `encloses ${isSolid ? 'the solid of ' : ''}the original`;
   }
 
   /** The numbers of the level that is shown. */
@@ -118,7 +118,7 @@ export class Panel {
     live.void.textContent = query ? '–' : levels.voids ? percent(levels.voids[levels.shown]) : '–';
     const isStop = stop.faces === levels.shownFaces && !query, bound = isStop ? stop.upper : stop.until_next;
     live.distance.textContent = query ? '–' : bound === undefined ? '…' : withUnit(`≤ ${atMost(bound)}`, this.unit);
-    live.encloses.textContent = v.refused ? '?' : v.encloses ? '✓ yes' : '– not proven';
+    live.encloses.textContent = v.refused ? '?' : v.every_level || v.encloses && levels.shown === 0 ? '✓ yes' : '– not proven';
     live.wanted.value = levels.shownFaces;
     live.stops.value = isStop ? String(stop.faces) : '';
     this.showFarthest();
@@ -372,7 +372,7 @@ export class Panel {
         ? [!object.levels && v.void_ratio !== null && ['Void', percent(v.void_ratio)],
           v.hull_volume !== null && [object.levels ? 'Volume of the base' : 'Volume, verified', withUnit(short(v.hull_volume, 7), cubic)],
           v.original_volume !== null && ['Volume of the original', withUnit(short(v.original_volume, 7), cubic)],
-          v.self_intersections !== undefined && [object.levels ? 'Self-intersections of the base' : 'Self-intersections', counted(v.self_intersections ?? 0, 'pair', 'pairs')]]
+          v.self_intersections !== undefined && [object.levels ? 'Self-intersections of the base' : 'Self-intersections', counted(v.self_intersections, 'pair', 'pairs')]]
         : [];
     return el('section', {id: 'facts'}, el('h2', {}, 'Numbers'), table([...rows, ...proof]),
         ...(v?.notes ?? []).map((note) => el('p', {class: 'soft'}, note)),
