@@ -1,9 +1,10 @@
-// What the page does with robots' files, without a browser: a URDF in, a list of work out; hulls in, a new URDF out.
+// What the page does without a browser. With robots' files: a URDF in, a list of work out; hulls in, a new URDF out.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {placeOf, tidied} from '../../view/web/app/robot/places.js';
 import {fileNames, planOf, scaleOf, scaled, whyLeft, withHulls} from '../../view/web/app/robot/urdf.js';
 import {parseXml} from '../../view/web/app/robot/xml.js';
+import {atLeast, atMost} from '../../view/web/src/panel/dom.js';
 
 const robot = (links) => `<?xml version="1.0"?>\n<!-- <link name="none"/> -->\n<robot name="r">\n${links}</robot>\n`;
 const visual = (mesh, more = '') => `<visual>${more}<geometry>${mesh}</geometry></visual>`;
@@ -99,4 +100,14 @@ test('what is no URDF is refused, with its line', () => {
   assert.throws(() => parseXml(`<a${' '.repeat(1e6)}`), /no XML/);
   assert.equal(parseXml(`${'<a>'.repeat(1e5)}${'</a>'.repeat(1e5)}`).name, 'a');
   assert.equal(parseXml('<a b="&lt;&amp;&#x41;"/>').attributes.get('b'), '<&A');
+});
+
+test('bounds stay bounds with four digits', () => {
+  for (const digits of [1, 1.234, 9.999, 9.9995])
+    for (const exponent of [-320, -12, 0, 3, 300])
+      for (const x of [Number(`${digits}e${exponent}`), Number(`${digits}e${exponent}`) * (1 + 5e-13)]) {
+        assert.ok(Number(atMost(x)) >= x && Number(atMost(x)) <= 1.0011 * x, `${x} is at most ${atMost(x)}`);
+        assert.ok(Number(atLeast(x)) <= x && Number(atLeast(x)) >= 0.9989 * x, `${x} is at least ${atLeast(x)}`);
+      }
+  assert.deepEqual([atMost(0.3), atLeast(0.3), atLeast(9999.5), atMost(0), atLeast(0)], ['0.3', '0.3', '9999', '0', '0']);
 });

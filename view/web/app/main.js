@@ -3,7 +3,7 @@
 import * as prohull from 'prohull';
 import {readFragment, writeFragment} from '../src/act/address.js';
 import {readObjects} from '../src/data/objects.js';
-import {byId, counted, el, grouped, short} from '../src/panel/dom.js';
+import {byId, counted, el, grouped, save, short} from '../src/panel/dom.js';
 import {View} from '../src/view.js';
 import {MOST_MEGABYTES, bytesOf, treeOfEntries, treeOfFiles, treeOfZip} from './robot/folder.js';
 import {Robots} from './robot/robots.js';
@@ -306,12 +306,6 @@ async function measure(faces) {
   active.stops.push({faces, lower, upper, farthest: [...farthest]});
   active.stops.sort((a, b) => a.faces - b.faces);
   view.refresh();
-}
-
-function save(bytes, name) {
-  const link = el('a', {href: URL.createObjectURL(new Blob([bytes])), download: name});
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
 function merged(pieces) {

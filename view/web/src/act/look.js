@@ -1,7 +1,7 @@
 // How everything is shown: from where, how opaque, in which colours.
 
 import {legendColors} from '../data/heat.js';
-import {byId, el, grouped, short} from '../panel/dom.js';
+import {byId, el, grouped, save, short} from '../panel/dom.js';
 import {explosion, showsParts} from '../picture/materials.js';
 
 export class Look {
@@ -127,9 +127,6 @@ export class Look {
   toggleOrthographic() { this.setOrthographic(!this.view.state.orthographic); }
 
   async savePicture() {
-    const blob = await this.view.viewport.picture();
-    const link = el('a', {href: URL.createObjectURL(blob), download: 'prohull-view.png'});
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+    save(await this.view.viewport.picture(), 'prohull-view.png');
   }
 }

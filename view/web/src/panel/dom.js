@@ -19,6 +19,13 @@ export function svg(tag, attributes = {}, ...children) {
   return element;
 }
 
+/** Offers a file of this name: bytes, or a blob. */
+export function save(content, name) {
+  const link = el('a', {href: URL.createObjectURL(new Blob([content])), download: name});
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
 export const byId = (id) => document.getElementById(id);
 
 /** 96966 as "96,966" */
@@ -32,19 +39,17 @@ export function short(number, digits = 4) {
   return Math.abs(number) >= 1e-4 && Math.abs(number) < 1e7 ? String(Number(text)) : Number(text).toExponential();
 }
 
-/** Never less than it is: for bounds. */
-export function atMost(number) {
-  if (number === 0 || !Number.isFinite(number)) return String(number);
-  const unit = 10 ** (Math.floor(Math.log10(number)) - 3);
-  return short(Math.ceil(number / unit * (1 - 1e-12)) * unit);
+/** With four digits that count, and not on the other side of the number. */
+function rounded(number, sign) {
+  const nearest = Number(number.toPrecision(4)), exponent = Number(number.toExponential().split('e')[1]);
+  return short(sign * nearest >= sign * number ? nearest : nearest + sign * Number(`1e${exponent - 3}`));
 }
 
+/** Never less than it is: for bounds. */
+export const atMost = (number) => number > 0 && Number.isFinite(number) ? rounded(number, 1) : String(number);
+
 /** Never more than it is: for bounds. */
-export function atLeast(number) {
-  if (!(number > 0) || !Number.isFinite(number)) return '0';
-  const unit = 10 ** (Math.floor(Math.log10(number)) - 3);
-  return short(Math.floor(number / unit * (1 - 1e-12)) * unit);
-}
+export const atLeast = (number) => number > 0 && Number.isFinite(number) ? rounded(number, -1) : '0';
 
 /** Less than a billionth of a per cent is the rounding of volumes. */
 export const percent = (ratio) => `${Math.abs(ratio) < 1e-11 ? 0 : short(100 * ratio, 4)} %`;
