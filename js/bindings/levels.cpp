@@ -58,7 +58,8 @@ ProgressiveHull levels_of(const val& levels) {
     const std::uint32_t* const f = &fields[6 * i];
     splits[i] = {VertexId(f[0]), VertexId(f[1]), VertexId(f[2]), VertexId(f[3]), f[4], f[5]};
   }
-  if (positions.size() != vertices + splits.size() || corners.size() % 3 != 0 || 2 * splits.size() > corners.size() / 3)
+  if (numbers.size() % 3 != 0 || fields.size() % 6 != 0 || positions.size() != vertices + splits.size() ||
+      corners.size() % 3 != 0 || 2 * splits.size() > corners.size() / 3)
     throw InputError(Defect::Malformed, "levels: its arrays do not belong together");
   ProgressiveHull hull(side, vertices, PerVertex<Vec3>(std::move(positions)), std::move(corners), std::move(splits));
   if (const auto defect = first_defect(hull)) throw InputError(Defect::Malformed, "levels: " + *defect);

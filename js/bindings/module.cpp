@@ -129,10 +129,7 @@ val read_levels(const val& bytes, const std::string& name) {
 
 /// The bytes of a .phull file.
 val write_levels(const val& levels) {
-  const std::string content = hull_content(levels_of(levels));
-  val object = val::object();
-  object.set("bytes", array_of(reinterpret_cast<const unsigned char*>(content.data()), content.size()));
-  return object;
+  return object_of_file(hull_content(levels_of(levels)));
 }
 
 val object_of(const Verification& found) {
@@ -329,10 +326,7 @@ val read(const val& bytes, const std::string& name, const val& given) {
 }
 
 val write(const val& mesh, const std::string& name) {
-  const std::string content = mesh_content(name, mesh_of(mesh, "mesh"));
-  val object = val::object();
-  object.set("bytes", array_of(reinterpret_cast<const unsigned char*>(content.data()), content.size()));
-  return object;
+  return object_of_file(mesh_content(name, mesh_of(mesh, "mesh")));
 }
 
 double memory() { return static_cast<double>(emscripten_get_heap_size()); }

@@ -1,6 +1,8 @@
 // What the page app.html asks for beside what index.d.ts lists (view/web/app).
 #include <emscripten/bind.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "calls.h"
@@ -38,6 +40,10 @@ view::Balls balls_of(const val& array) {
   view::Balls balls;
   for (std::size_t i = 0; i + 4 <= numbers.size(); i += 4)
     balls.push_back({{numbers[i], numbers[i + 1], numbers[i + 2]}, numbers[i + 3]});
+  const auto is_ball = [](const Ball& b) { return is_finite(b.center) && std::isfinite(b.radius) && b.radius >= 0; };
+  if (numbers.size() % 4 != 0 || !std::all_of(balls.begin(), balls.end(), is_ball))
+    throw InputError(Defect::NonFiniteCoordinate,
+                     "balls: expected finite numbers, four for each, of which the last is at least 0");
   return balls;
 }
 
@@ -73,12 +79,6 @@ val scene(const val& hull, const val& original, const val& given, const val& pro
   return object;
 }
 
-val object_of_file(std::string_view content) {
-  val object = val::object();
-  object.set("bytes", array_of(reinterpret_cast<const unsigned char*>(content.data()), content.size()));
-  return object;
-}
-
 /// As `prohull convex` writes them to one file.
 val write_several(const val& meshes, const val& names, const std::string& file) {
   std::vector<TriangleMesh> all;
@@ -89,12 +89,7 @@ val write_several(const val& meshes, const val& names, const std::string& file) 
 
 /// As `prohull spheres` writes them.
 val spheres_json(const val& balls, const std::string& link) {
-  const view::Balls all = balls_of(balls);
-  for (const Ball& ball : all)
-    if (!is_finite(ball.center) || !std::isfinite(ball.radius) || ball.radius < 0)
-      throw InputError(Defect::NonFiniteCoordinate,
-                       "balls: expected finite numbers, four for each, of which the last is at least 0");
-  return object_of_file(robot::sphere_json({link, all}));
+  return object_of_file(robot::sphere_json({link, balls_of(balls)}));
 }
 
 /// `metres`: of the unit of the file, of which the mesh is converted to metres; else 1.

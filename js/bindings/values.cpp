@@ -157,6 +157,12 @@ val object_of_mesh(const TriangleMesh& mesh) {
   return object;
 }
 
+val object_of_file(std::string_view content) {
+  val object = val::object();
+  object.set("bytes", array_of(reinterpret_cast<const unsigned char*>(content.data()), content.size()));
+  return object;
+}
+
 val strings_of(const std::vector<std::string>& strings) { return val::array(strings); }
 
 }  // namespace prohull::js

@@ -93,6 +93,9 @@ val array_of(const Vec3& p);
 /// {vertices, faces}
 val object_of_mesh(const TriangleMesh& mesh);
 
+/// {bytes}
+val object_of_file(std::string_view content);
+
 val strings_of(const std::vector<std::string>& strings);
 
 }  // namespace prohull::js

@@ -97,12 +97,12 @@ async function contentOf(file, name) {
 
 /** Loads the library: `wasm` is a WebAssembly.Module of module.wasm. */
 export async function loadEngine(wasm) {
-  const module = await makeModule({
+  const module = await new Promise((resolve, reject) => makeModule({
     instantiateWasm(imports, done) {
-      WebAssembly.instantiate(wasm, imports).then(done);
+      WebAssembly.instantiate(wasm, imports).then(done).catch(reject);  // of which makeModule would never hear
       return {};
     },
-  });
+  }).then(resolve, reject));
   const call = (name, ...args) => {
     const result = module[name](...args);
     if (result.error !== undefined) throw errorOf(result.name, result.error);

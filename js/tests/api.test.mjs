@@ -5,7 +5,7 @@ import {execFileSync} from 'node:child_process';
 import {gzipSync} from 'node:zlib';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
-import {cube, engine, hasProgram, prohull, run, sample, scratch} from './package.mjs';
+import {cube, engine, hasProgram, loadEngine, prohull, run, sample, scratch} from './package.mjs';
 
 const refused = (call, says) => assert.rejects(call, (error) => {
   assert.equal(error.name, 'InputError');
@@ -55,7 +55,9 @@ test('levels nest', async () => {
   const finer = await prohull.level(hull.levels, 500);
   assert.ok(finer.faces.length / 3 <= 500 && finer.faces.length / 3 > 490);
   assert.ok((await prohull.verify(hull, finer)).holds && (await prohull.verify(finer, part)).holds);
-  await refused(prohull.level({...hull.levels, splits: hull.levels.splits.slice(6)}, 500), /do not belong together/);
+  for (const splits of [hull.levels.splits.slice(6), [...hull.levels.splits, 1]])
+    await refused(prohull.level({...hull.levels, splits}, 500), /do not belong together/);
+  await refused(prohull.level({...hull.levels, positions: [...hull.levels.positions, 1]}, 500), /do not belong together/);
   await refused(prohull.level({...hull.levels, splits: hull.levels.splits.map(() => 7)}, 500), /split/);
   await refused(prohull.level(undefined, 500), /levels/);
   await refused(prohull.level(hull.levels, 59), /faces=59: the coarsest level has 60 faces/);
@@ -169,7 +171,10 @@ test('files', async () => {
   assert.deepEqual(text.match(/^o .*/gm), ['o a', 'o b']);
   await refused(prohull.writeSeveral(two, 'a.ply'), /hold one mesh each/);
   await refused(prohull.writeSeveral([], 'a.obj'), /meshes: there is none/);
-  for (const radius of [NaN, -1]) await refused(prohull.spheresJson([1, 2, 3, radius], 'a'), /balls: expected finite numbers/);
+  for (const balls of [[1, 2, 3, NaN], [1, 2, 3, -1], [1, 2, 3, 4, 5]]) {
+    await refused(prohull.spheresJson(balls, 'a'), /balls: expected finite numbers/);
+    await refused(prohull.scene({name: 'a', balls}, null), /balls: expected finite numbers/);
+  }
   await refused(prohull.certificate(cube, await prohull.write(cube, 'a.glb'), 'a.glb'), /a.glb: prohull_check reads/);
   await refused(prohull.read(new TextEncoder().encode('hello'), 'a.txt'), /give it the suffix of its format$/);
   assert.deepEqual(JSON.parse(new TextDecoder().decode(await prohull.spheresJson([1, 2, 3, 4], 'a'))),
@@ -299,6 +304,11 @@ test('calls at the same time do not disturb each other', async () => {
   const part = ball(1000), alone = await prohull.build(part, 80);
   for (const hull of await Promise.all([1, 2, 3].map(() => prohull.build(part, 80))))
     assert.deepEqual(hull.vertices, alone.vertices);
+});
+
+test('a library that cannot be started is an error, and no call without an end', {timeout: 10000}, async () => {
+  const other = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 2, 7, 1, 1, 120, 1, 121, 0, 0);  // imports a function that is not there
+  await assert.rejects(loadEngine(await WebAssembly.compile(other)), TypeError);
 });
 
 test('memory does not grow', () => {
