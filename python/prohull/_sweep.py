@@ -72,7 +72,8 @@ def sweep(mesh: MeshLike, *, axis: Union[Axis, Sequence[float]] = "z", through: 
         axis through a point: "x", "y", "z" or a vector.
     move: the mesh moves straight by this vector; together with `angle` as a screw does.
     poses: or from pose to pose: matrices of shape (n, 4, 4), a rotation and a translation each; or the name of a file,
-        as --poses of `prohull sweep` reads it. The origin of the mesh goes straight from one to the next, and the mesh
+        as --poses of `prohull sweep` reads it. Matrices may differ from rigid ones by 1e-6: what is
+        proven is about the rigid ones. The origin of the mesh goes straight from one to the next, and the mesh
         turns about one axis the shorter way round. Not together with axis, through, angle and move.
     pieces: the largest number of convex pieces that cover the mesh before it moves, at least 1.
     max_distance: how far the slices of the motion may add to the distance of these pieces from the mesh, in the mesh's
