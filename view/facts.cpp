@@ -15,7 +15,9 @@ constexpr std::size_t kMostOffenders = 20;
 
 /// Its answer, in the words of `prohull verify`: `told` is a claim(), and `why_not` follows where it is not yes.
 nlohmann::json answer_facts(const Verdict& verdict, const std::string& told) {
-  return {{"answer", verdict.certified ? "yes" : verdict.is_undecided() ? "undecided" : "no"},
+  return {{"answer", verdict.certified        ? "yes"
+                     : verdict.is_undecided() ? "undecided"
+                                              : "no"},
           {"told", told + (verdict.is_yes() && !verdict.certified ? ", but there is more" : "")},
           {"why_not", verdict.why_not},
           {"proof", std::string(verdict.proof)}};

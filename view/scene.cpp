@@ -272,8 +272,8 @@ class Writer {
   }
 
   const PageOptions& options_;
-  const Original* given_ = nullptr;  // the original, as it was given
-  std::optional<Reference> reference_;   // the same, as it is drawn
+  const Original* given_ = nullptr;     // the original, as it was given
+  std::optional<Reference> reference_;  // the same, as it is drawn
   Grid grid_;
   Blocks blocks_;
   json scene_;

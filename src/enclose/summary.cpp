@@ -140,10 +140,10 @@ std::string claim(const Verification& found, const std::string& hull, const std:
   if (has_failed_replay(found)) return fmt::format("{} proves nothing about {}", hull, original);
   if (is_of_every_level(found)) return claim(verdict, "every level of " + hull, original);
   const bool has_solids = found.encloses && found.encloses_solid != Answer::NotAsked;
-  return claim(verdict, "the base mesh of " + hull, original) +
-         (!has_solids                       ? ""
-          : found.side == HullSide::Inner ? ", and the solid of every level"
-                                          : ", and every level its solid");
+  return claim(verdict, "the base mesh of " + hull, original) + (!has_solids ? ""
+                                                                 : found.side == HullSide::Inner
+                                                                     ? ", and the solid of every level"
+                                                                     : ", and every level its solid");
 }
 
 bool is_of_every_level(const Verification& found) { return found.encloses && found.faces_beside_solid == 0; }

@@ -158,7 +158,8 @@ TEST(ViewScene, SaysOfWhichLevelsItIsKnown) {
   Original folded{"folded.obj", make_sample("sphere", 600)};
   *std::ranges::max_element(folded.mesh.positions, {}, &Vec3::z) = {0.03, 0.05, -1.001};
   const EnclosingHull hull = enclosing_hull(folded.mesh, 12, {.levels = true});
-  const nlohmann::json found = verdict_of({"h.phull", hull.levels.value().with_finest_level(FinestLevel::Repaired)}, folded);
+  const nlohmann::json found =
+      verdict_of({"h.phull", hull.levels.value().with_finest_level(FinestLevel::Repaired)}, folded);
   EXPECT_EQ(found["answer"], "yes");
   EXPECT_EQ(found["told"], "the base mesh of h.phull encloses folded.obj, and every level its solid");
   EXPECT_EQ(found["every_level"], false);
