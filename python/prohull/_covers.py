@@ -303,6 +303,6 @@ def _void_ratio(cover: Union[ConvexCover, SphereCover]) -> float:
 
 def _described(cover: Union[ConvexCover, SphereCover], count: int, what: str) -> str:
     void = "" if math.isnan(cover.void_ratio) else f"void {100 * cover.void_ratio:.3g} %, "
-    notes = {0: "", 1: ", 1 note"}.get(len(cover.notes), f", {len(cover.notes)} notes")
-    return (f"<prohull.{type(cover).__name__}: {count:,} {what}{'' if count == 1 else 's'}, {void}"
+    notes = f", {_arrays.counted(len(cover.notes), 'note')}" if cover.notes else ""
+    return (f"<prohull.{type(cover).__name__}: {_arrays.counted(count, what)}, {void}"
             f"{'certified' if cover.certified else 'NOT CERTIFIED'}{notes}>")
