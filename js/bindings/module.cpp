@@ -11,6 +11,7 @@
 #include "levels.h"
 #include "prohull/convex_cover.h"
 #include "prohull/detail/cover_summary.h"
+#include "prohull/detail/finite.h"
 #include "prohull/detail/float32_hull.h"
 #include "prohull/detail/given_options.h"
 #include "prohull/detail/summary.h"
@@ -128,9 +129,7 @@ val read_levels(const val& bytes, const std::string& name) {
 }
 
 /// The bytes of a .phull file.
-val write_levels(const val& levels) {
-  return object_of_file(hull_content(levels_of(levels)));
-}
+val write_levels(const val& levels) { return object_of_file(hull_content(levels_of(levels))); }
 
 val object_of(const Verification& found) {
   val object = val::object();
@@ -174,12 +173,16 @@ val verify(const val& hull, const val& original, const val& given, const val& pr
 }
 
 val distance(const val& from, const val& to, const val& given, const val& progress) {
-  const auto options = options_of(given, progress, [](const Given& named) {
+  bool finite_only = false;
+  const auto options = options_of(given, progress, [&](const Given& named) {
     DistanceOptions read;
     named.not_negative("relative_gap", read.relative_gap);
+    named.flag("finite_only", finite_only);
     return read;
   });
-  const DistanceBounds bounds = distance_bounds(mesh_of(from, "from"), mesh_of(to, "to"), options);
+  TriangleMesh target = mesh_of(to, "to");
+  if (finite_only) target = with_finite_faces(std::move(target));
+  const DistanceBounds bounds = distance_bounds(mesh_of(from, "from"), target, options);
   val object = val::object();
   object.set("lower", bounds.lower);
   object.set("upper", bounds.upper);

@@ -180,10 +180,10 @@ export function level(levels: Levels, faces?: number, options?: Running & {float
 export function verify(
   hull: MeshLike, original: MeshLike,
   options?: Running & {side?: Side; solidOnly?: boolean; gap?: number; finiteOnly?: boolean}): Promise<Verification>;
-/** Bounds of the greatest distance of a point of `from` from `to`. Both are proven. */
+/** Bounds of the greatest distance of a point of `from` from `to`. Both are proven. `finiteOnly` leaves out faces of `to` that are not finite. */
 export function distance(
   from: MeshLike, to: MeshLike,
-  options?: Running & {relativeGap?: number}): Promise<{lower: number; upper: number; farthest: Float64Array}>;
+  options?: Running & {relativeGap?: number; finiteOnly?: boolean}): Promise<{lower: number; upper: number; farthest: Float64Array}>;
 /** Covers triangles by a few convex pieces. */
 export function convexPieces(
   mesh: MeshLike,

@@ -42,6 +42,9 @@ test('a hull is certified, and verify says the same', async () => {
   const inside = await prohull.verify(part, hull);
   assert.ok(!inside.holds && inside.worst[0].distance > 0 && inside.whyNot.length > 0);
   const {lower, upper} = await prohull.distance(hull, part);
+  const broken = {vertices: [...part.vertices, NaN, 0, 0], faces: [...part.faces, 0, 1, part.vertices.length / 3]};
+  await refused(prohull.distance(hull, broken), /not finite/);
+  assert.equal((await prohull.distance(hull, broken, {finiteOnly: true})).upper, upper);
   assert.ok(0 < lower && lower <= upper && upper < 0.2);
 });
 

@@ -301,7 +301,7 @@ async function judge(faces) {
 async function measure(faces) {
   const {active} = view, {levels} = made.hull;
   if (active.stops.some((stop) => stop.faces === faces)) return;
-  const {lower, upper, farthest} = await prohull.level(levels, faces).then((level) => prohull.distance(level, part.mesh, {relativeGap: 0.02}));
+  const {lower, upper, farthest} = await prohull.level(levels, faces).then((level) => prohull.distance(level, part.mesh, {relativeGap: 0.02, finiteOnly: true}));
   if (active !== view.active) return;
   active.stops.push({faces, lower, upper, farthest: [...farthest]});
   active.stops.sort((a, b) => a.faces - b.faces);
