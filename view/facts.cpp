@@ -13,63 +13,56 @@ namespace {
 
 constexpr std::size_t kMostOffenders = 20;
 
-/// Its answer, in the words of `prohull verify`: `told` is a claim(), and `why_not` follows where it is not yes.
-nlohmann::json answer_facts(const Verdict& verdict, const std::string& told) {
-  return {{"answer", verdict.certified        ? "yes"
-                     : verdict.is_undecided() ? "undecided"
-                                              : "no"},
-          {"told", told + (verdict.is_yes() && !verdict.certified ? ", but there is more" : "")},
-          {"why_not", verdict.why_not},
-          {"proof", std::string(verdict.proof)}};
+/// The answer in the words of `prohull verify`: `told` is a claim(), and `why_not` follows where it is not yes.
+/// `volume` is that of what is shown.
+template <class Found>
+nlohmann::json facts_of(const Found& found, const std::string& told, double volume) {
+  return {{"answer", found.certified        ? "yes"
+                     : found.is_undecided() ? "undecided"
+                                            : "no"},
+          {"told", told + (found.is_yes() && !found.certified ? ", but there is more" : "")},
+          {"why_not", found.why_not},
+          {"proof", std::string(found.proof)},
+          {"encloses", found.certified},
+          {"faces_outside", found.faces_outside},
+          {"worst", found.worst},
+          {"hull_volume", volume},
+          {"original_volume", found.original_volume},
+          {"void_ratio", found.void_ratio},
+          {"notes", found.notes}};
 }
 
 /// Verifies whatever is shown.
 struct Verify {
   nlohmann::json operator()(const TriangleMesh& hull) const {
-    return facts_of(verify_hull(hull, original.mesh, shown.side.value_or(side), how));
+    return of_hull(verify_hull(hull, original.mesh, shown.side.value_or(side), how));
   }
   nlohmann::json operator()(const ProgressiveHull& hull) const {
-    return facts_of(verify_hull(hull, original.mesh, how));
+    return of_hull(verify_hull(hull, original.mesh, how));
   }
   nlohmann::json operator()(const Pieces& pieces) const {
-    return facts_of(verify_union(pieces, original.mesh, how), counted(pieces.size(), "piece"));
+    return of_union(verify_union(pieces, original.mesh, how), counted(pieces.size(), "piece"));
   }
   nlohmann::json operator()(const Balls& balls) const {
-    return facts_of(verify_union(balls, original.mesh, false, how), counted(balls.size(), "sphere"));
+    return of_union(verify_union(balls, original.mesh, false, how), counted(balls.size(), "sphere"));
   }
   nlohmann::json operator()(const ShownRobot&) const { return {}; }
 
-  nlohmann::json facts_of(const Verification& found) const {
-    nlohmann::json facts = answer_facts(found, claim(found, shown.name, original.name));
-    facts.update({{"encloses", found.encloses},
-                  {"side", std::string(name_of(hull_side_names(), found.side))},
+  nlohmann::json of_hull(const Verification& found) const {
+    nlohmann::json facts = facts_of(found, claim(found, shown.name, original.name), found.hull_volume);
+    facts.update({{"side", std::string(name_of(hull_side_names(), found.side))},
                   {"every_level", is_of_every_level(found)},
                   {"solid_only", found.covers_triangles == Answer::NotAsked},
                   {"splits", found.splits},
-                  {"signs", found.signs},
-                  {"faces_outside", found.faces_outside},
-                  {"worst", found.worst},
-                  {"hull_volume", found.hull_volume},
-                  {"original_volume", found.original_volume},
-                  {"void_ratio", found.void_ratio},
-                  {"notes", found.notes}});
+                  {"signs", found.signs}});
     if (has_failed_replay(found))
       facts["answer"] = "no";
     else
       facts["self_intersections"] = found.self_intersections;
     return facts;
   }
-
-  nlohmann::json facts_of(const UnionVerification& found, const std::string& parts) const {
-    nlohmann::json facts = answer_facts(found, claim(found, "the union of " + parts, original.name));
-    facts.update({{"encloses", found.certified},
-                  {"faces_outside", found.faces_outside},
-                  {"worst", found.worst},
-                  {"hull_volume", found.union_volume},
-                  {"original_volume", found.original_volume},
-                  {"void_ratio", found.void_ratio},
-                  {"notes", found.notes}});
-    return facts;
+  nlohmann::json of_union(const UnionVerification& found, const std::string& parts) const {
+    return facts_of(found, claim(found, "the union of " + parts, original.name), found.union_volume);
   }
 
   const Shown& shown;

@@ -39,7 +39,7 @@ is "the same page twice" cmp units.html again.html
 "$prohull" convex bracket.ply --pieces 3 -o piece.stl >/dev/null
 expect 0 "pieces of several files" "$prohull" view --union piece_*.stl --original bracket.ply -o union.html
 says union.html "pieces of several files" "\"union\":\"$(ls piece_*.stl | wc -l) pieces\""
-says union.html "pieces of several files" '"verification":{"encloses":true'
+says union.html "pieces of several files" '"verification":{"answer":"yes"'
 
 # --- the page that `prohull urdf` writes beside its report ---
 expect 0 "sample" "$prohull" sample gripper -o gripper
