@@ -13,8 +13,8 @@ import pytest
 CENSUS = pathlib.Path(__file__).parents[2] / "scripts" / "census"
 
 
-def census(*arguments):
-    environment = {"PYTHONPATH": str(pathlib.Path(prohull.__file__).parents[1]), "PATH": "/usr/bin:/bin"}
+def census(*arguments, packages=pathlib.Path(prohull.__file__).parents[1]):
+    environment = {"PYTHONPATH": str(packages), "PATH": "/usr/bin:/bin"}
     return subprocess.run([sys.executable, CENSUS, *arguments], capture_output=True, text=True, env=environment)
 
 
@@ -68,6 +68,22 @@ def test_tells_of_every_robot_and_keeps_it(robots, tmp_path):
     assert "srdf_rows" not in again and 0 < again["missed"] < 100 and again["false_stops"] == 0, "boxes inside of balls"
     (robots / "chain" / "ball.obj").write_text("v 0 0 0\nf 1 2 3\n")
     assert census(tmp_path, robots).returncode == 0 and json.loads(kept.read_text())["unchecked"] == 3
+
+
+def test_another_program_of_the_same_version_checks_again(tmp_path):
+    write_ball(tmp_path / "robots" / "ball.urdf")
+    package = tmp_path / "packages" / "prohull"
+    package.mkdir(parents=True)
+    for file in pathlib.Path(prohull.__file__).parent.glob("*.*"):
+        (package / file.name).symlink_to(file)
+    kept = tmp_path / "out" / "robots" / "ball.urdf.json"
+    program, times = pathlib.Path(prohull.__file__).with_name("prohull"), []
+    for text in ("", "", "# another one\n"):
+        (package / "prohull").write_text(f'#!/bin/sh\n{text}exec {program} "$@"\n')
+        (package / "prohull").chmod(0o755)
+        assert census(tmp_path / "out", tmp_path / "robots", packages=package.parent).returncode == 0
+        times.append(kept.stat().st_mtime_ns)
+    assert times[0] == times[1] < times[2]
 
 
 def test_the_action_judges_a_repository(robots, tmp_path):
