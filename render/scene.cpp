@@ -27,8 +27,8 @@ Body::Body(TriangleMesh of, double crease_angle)
 
 Placement::Placement(const Box& box) : center_(box.center()) {
   const Vec3 half = 0.5 * box.max - 0.5 * box.min;
-  size_ = 2 * std::max({half.x, half.y, half.z});
-  if (box.is_empty() || !(size_ > 0)) throw InputError(Defect::EmptyMesh, "there is nothing to draw");
+  half_size_ = std::max({half.x, half.y, half.z});
+  if (box.is_empty() || !(half_size_ > 0)) throw InputError(Defect::EmptyMesh, "there is nothing to draw");
 }
 
 TriangleMesh Placement::operator()(TriangleMesh mesh) const {

@@ -52,12 +52,12 @@ class Placement {
  public:
   /// Throws InputError(EmptyMesh) for a box that is empty or a single point.
   explicit Placement(const Box& box);
-  Vec3 operator()(const Vec3& p) const { return (p - center_) / size_; }
+  Vec3 operator()(const Vec3& p) const { return (0.5 * p - 0.5 * center_) / half_size_; }
   TriangleMesh operator()(TriangleMesh mesh) const;
 
  private:
   Vec3 center_;
-  double size_;
+  double half_size_;  // of the box; the size itself may be beyond all doubles
 };
 
 /// What a ray through the picture meets.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "meshes.h"
 #include "prohull/error.h"
 #include "prohull/sample.h"
@@ -32,6 +34,16 @@ TEST(Draw, ShowsTheMeshInTheMiddleOfATransparentPicture) {
   EXPECT_TRUE(is_red(image.at(kWidth / 2, kHeight / 2)));
   for (const int x : {0, kWidth - 1})
     for (const int y : {0, kHeight - 1}) EXPECT_EQ(image.at(x, y), Pixel{});
+}
+
+// Of 1.7e308, twice as much is no double.
+TEST(Draw, ShowsMeshesOfAnySizeTheSame) {
+  const Image usual = drawn({plan(0, "red")}, {meshes::sphere(3)});
+  for (const int exponent : {-1000, 1000, 1023}) {
+    TriangleMesh mesh = meshes::sphere(3);
+    for (Vec3& p : mesh.positions) p = std::ldexp(1.0, exponent) * p;
+    EXPECT_EQ(drawn({plan(0, "red")}, {mesh}).pixels(), usual.pixels()) << exponent;
+  }
 }
 
 TEST(Draw, FillsTheBackground) {
