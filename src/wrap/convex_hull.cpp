@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "geometry/directions.h"
 #include "geometry/no_index.h"
-#include "geometry/predicates.h"
+#include "geometry/triangle_predicates.h"
 #include "prohull/detail/finite.h"
 
 namespace prohull {
@@ -60,27 +61,33 @@ class Quickhull {
     for (const VertexId v : mesh_.positions.ids())
       if (is_used[v]) points.push_back(v);
     if (points.empty()) return false;
-    const auto most = [&](auto&& measure) { return *std::ranges::max_element(points, {}, measure); };
-    const VertexId a = most([&](VertexId v) { return -at(v).x; });
-    const VertexId b = most([&](VertexId v) { return squared_norm(at(v) - at(a)); });
-    const VertexId c = most([&](VertexId v) { return squared_norm(cross(at(v) - at(a), at(b) - at(a))); });
-    const Vec3 normal = cross(at(b) - at(a), at(c) - at(a));
-    VertexId d = most([&](VertexId v) { return std::abs(dot(at(v) - at(a), normal)); });
-    Side where = side(at(a), at(b), at(c), at(d));
-    if (where == Side::On) {  // nearly in a plane
-      const auto apart =
-          std::ranges::find_if(points, [&](VertexId v) { return side(at(a), at(b), at(c), at(v)) != Side::On; });
-      if (apart == points.end()) return false;
-      d = *apart;
-      where = side(at(a), at(b), at(c), at(d));
-    }
-    const auto [p, q] = where == Side::Inside ? std::pair(b, c) : std::pair(c, b);
+    // The farthest of them, or any that will do where rounding hides which these are.
+    const auto most = [&](auto&& measure, auto&& will_do) -> std::optional<VertexId> {
+      if (const VertexId v = *std::ranges::max_element(points, {}, measure); will_do(v)) return v;
+      const auto found = std::ranges::find_if(points, will_do);
+      return found == points.end() ? std::nullopt : std::optional(*found);
+    };
+    const VertexId a = *std::ranges::min_element(points, {}, [&](VertexId v) { return at(v).x; });
+    const auto b =
+        most([&](VertexId v) { return squared_norm(at(v) - at(a)); }, [&](VertexId v) { return at(v) != at(a); });
+    if (!b) return false;
+    const auto c = most([&](VertexId v) { return squared_norm(cross(at(v) - at(a), at(*b) - at(a))); },
+                        [&](VertexId v) {
+                          return projection_axis({at(a), at(*b), at(v)}).has_value();
+                        });
+    if (!c) return false;
+    const Vec3 normal = cross(at(*b) - at(a), at(*c) - at(a));
+    const auto side_of_all = [&](VertexId v) { return side(at(a), at(*b), at(*c), at(v)); };
+    const auto d = most([&](VertexId v) { return std::abs(dot(at(v) - at(a), normal)); },
+                        [&](VertexId v) { return side_of_all(v) != Side::On; });
+    if (!d) return false;
+    const auto [p, q] = side_of_all(*d) == Side::Inside ? std::pair(*b, *c) : std::pair(*c, *b);
     faces_.push_back({{a, p, q}, {1, 2, 3}, {}});
-    faces_.push_back({{p, a, d}, {0, 3, 2}, {}});
-    faces_.push_back({{q, p, d}, {0, 1, 3}, {}});
-    faces_.push_back({{a, q, d}, {0, 2, 1}, {}});
+    faces_.push_back({{p, a, *d}, {0, 3, 2}, {}});
+    faces_.push_back({{q, p, *d}, {0, 1, 3}, {}});
+    faces_.push_back({{a, q, *d}, {0, 2, 1}, {}});
     for (const VertexId v : points)
-      if (v != a && v != b && v != c && v != d) note(v, 0, faces_.size());
+      if (v != a && v != *b && v != *c && v != *d) note(v, 0, faces_.size());
     return true;
   }
 

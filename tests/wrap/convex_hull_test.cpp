@@ -85,6 +85,26 @@ TEST(ConvexHull, DistinguishesAlmostFlatFromFlat) {
   expect_convex_hull(thin, hull);
 }
 
+TEST(ConvexHull, HasAllFacesWhereSquaresUnderflowOrOverflow) {
+  for (const double size : {1e-150, 1e-90, 1e90}) {
+    const TriangleMesh cube = box({0, 0, 0}, {size, size, size});
+    const TriangleMesh hull = convex_hull(cube);
+    EXPECT_EQ(hull.face_count(), 12u) << size;
+    expect_convex_hull(cube, hull);
+  }
+}
+
+// The areas of their triangles may be less than rounding.
+TEST(ConvexHull, DistinguishesAlmostStraightFromStraight) {
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> coordinate(1, 2);
+  for (int i = 0; i < 10'000; ++i) {
+    const Vec3 end{coordinate(random), coordinate(random), coordinate(random)}, p = end * 0.3, q = end * 0.7;
+    const bool is_flat = side({0, 0, 0}, p, q, end) == Side::On;
+    ASSERT_EQ(convex_hull(through({{0, 0, 0}, p, q, end})).face_count(), is_flat ? 0u : 4u) << i;
+  }
+}
+
 TEST(ConvexHull, TakesOnlyVerticesThatTrianglesUse) {
   TriangleMesh mesh = octahedron();
   mesh.positions.push_back({9, 9, 9});
