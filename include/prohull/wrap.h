@@ -38,8 +38,8 @@ struct Wrap {
 /// again as the largest one that passes the door.
 ///
 /// Guaranteed: nothing of the enclosure. Nobody has to trust a wrap: verify_cover decides whether it covers the
-/// triangles. Throws InputError if the mesh has no faces or is not finite, or if the grid would have more than 2^28
-/// nodes; Cancelled.
+/// triangles. Throws InputError if the mesh has no faces or is not finite, if the grid would have more than 2^28 nodes,
+/// or if the numbers at the coordinates of the mesh are coarser than its spacing (NonFiniteCoordinate); Cancelled.
 Wrap wrap(const TriangleMesh& triangles, const WrapOptions& options);
 
 /// Wrap::inside_volume alone.

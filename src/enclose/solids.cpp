@@ -124,18 +124,16 @@ std::optional<SolidId> Solids::wrap(const WrapKind& kind, double spacing, std::s
                         .closing = kind.closing * spacing,
                         .flatness = kind.flatness,
                         .progress = options.progress};
-  Wrap made;
-  if (request_.is_outer())
-    made = prohull::wrap(request_.to_cover(), how);
-  else
-    made.mesh = inner_wrap(request_.input.closed->mesh, how);
-  if (options.hull.float32_coordinates)  // the wrap is farther from the triangles than what that moves it
-    for (Vec3& p : made.mesh.positions) p = nearest_float32(p);
   std::optional<SolidId> id;
-  const bool is_empty = !request_.is_outer() && made.mesh.face_count() == 0;
-  if (is_empty && !request_.is_padded())
-    why_not = fmt::format("nothing inside of the mesh is thick enough for a wrap with a spacing of {:.4g}", spacing);
-  if (!is_empty) try {
+  try {
+    Wrap made;
+    if (request_.is_outer())
+      made = prohull::wrap(request_.to_cover(), how);
+    else
+      made.mesh = inner_wrap(request_.input.closed->mesh, how);
+    if (options.hull.float32_coordinates)  // the wrap is farther from the triangles than what that moves it
+      for (Vec3& p : made.mesh.positions) p = nearest_float32(p);
+    if (request_.is_outer() || made.mesh.face_count() > 0) {
       ClosedMesh wrapped = closed_mesh(std::move(made.mesh));
       id = add({.source = Source::Wrap,
                 .mesh = std::move(wrapped.mesh),
@@ -145,9 +143,13 @@ std::optional<SolidId> Solids::wrap(const WrapKind& kind, double spacing, std::s
                 .components = wrapped.report.components});
       entries_[*id].inside_volume = made.inside_volume, entries_[*id].kind = kind;
       wraps_[faces].push_back(*id);
-    } catch (const InputError& error) {
-      why_not = fmt::format("the wrap with a spacing of {:.4g} is no closed 2-manifold: {}", spacing, error.what());
+    } else if (!request_.is_padded()) {
+      why_not = fmt::format("nothing inside of the mesh is thick enough for a wrap with a spacing of {:.4g}", spacing);
     }
+  } catch (const InputError& error) {
+    if (error.defect() == Defect::InvalidOption) throw;
+    why_not = fmt::format("there is no wrap with a spacing of {:.4g}: {}", spacing, error.what());
+  }
   repair_seconds_ += watch.seconds();
   return id;
 }

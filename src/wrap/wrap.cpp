@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "geometry/bvh.h"
+#include "geometry/largest_coordinate.h"
 #include "prohull/error.h"
 #include "wrap/inside.h"
 #include "wrap/level_surface.h"
@@ -46,7 +46,18 @@ Grid grid_for(const TriangleMesh& triangles, const WrapOptions& options) {
     throw InputError(
         Defect::InvalidOption,
         fmt::format("a grid with a spacing of {:g} would have {:.3g} nodes: use a greater one", spacing, nodes));
-  return Grid(box, spacing, margin);
+  // find_inside relies on the margin, but the origin of the grid is rounded.
+  constexpr double kMostOff = 0.5;
+  const Grid grid(box, spacing, margin);
+  const Vec3 first = grid.in_spacings(box.min);
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::abs(first[axis] - margin) <= kMostOff))
+      throw InputError(
+          Defect::NonFiniteCoordinate,
+          fmt::format("the grid would be finer than numbers are at coordinates of up to {:.9g}: move the mesh to the "
+                      "origin",
+                      largest_coordinate(box)));
+  return grid;
 }
 
 /// Calls use(node 0 to 3, weight 0 to 3) with the tetrahedron of the grid in which a point lies.

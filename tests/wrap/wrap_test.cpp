@@ -205,6 +205,15 @@ TEST(Wrap, RefusesBadInput) {
     EXPECT_THROW(wrap(octahedron(), {.spacing = spacing}), InputError) << spacing;
 }
 
+// Its origin would be rounded by more than the margin, so that triangles lie beyond its nodes.
+TEST(Wrap, RefusesAGridThatIsFinerThanCoordinates) {
+  std::mt19937 random(test_seed());
+  const TriangleMesh far = moved(scaled(random_soup(random, 6), 0x1p-23), {1e9, 1e9, 1e9});
+  for (const bool seal_rooms : {false, true})
+    EXPECT_THROW(wrap(far, {.spacing = 0x1p-27, .seal_rooms = seal_rooms}), InputError);
+  EXPECT_THROW(inside_volume(far, {.spacing = 0x1p-27}), InputError);
+}
+
 TEST(Wrap, CanBeCancelled) {
   const UnthrottledProgress unthrottled;
   EXPECT_THROW(wrap(sphere(3), {.spacing = 0.05, .progress = [](std::string_view, double) { return false; }}),
