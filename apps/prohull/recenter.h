@@ -11,6 +11,7 @@ namespace prohull::cli {
 /// in doubles, so that a hull of the moved mesh encloses the mesh itself when it is moved back.
 Vec3 recentering_offset(const TriangleMesh& mesh);
 
+/// Throws InputError(InvalidOption) if that would round a vertex that a face uses.
 TriangleMesh minus(TriangleMesh mesh, const Vec3& offset);
 
 /// "500010,5400000,0": as `verify --offset` takes it, every bit.

@@ -73,7 +73,7 @@ std::string verdict(const Verification& found, const SizeComparison& sizes, cons
   std::string how = ", exactly";
   if (found.proof == "replay")
     how = fmt::format("; {} splits replayed, {} signs exact", grouped(found.splits), grouped(found.signs));
-  if (gap > 0) how = fmt::format(" and keeps a gap of {:.9g}", gap) + how;
+  if (gap > 0) how = fmt::format(" and keeps a gap of {:.9g}", rounded_down(gap, 9)) + how;
   if (sizes.is_doubtful() && !options.any_scale) return fmt::format("UNITS: {}{}, but {}", what, how, sizes.doubt());
   return fmt::format("yes: {}{}", what, how);
 }

@@ -83,6 +83,10 @@ awk -v offset="$offset" 'BEGIN { split(offset, o, ",") }
   /^v / { printf "v %.17g %.17g %.17g\n", $2 + o[1], $3 + o[2], $4 + o[3]; next } { print }' moved.obj >back.obj
 expect 0 "moved back, it encloses the mesh" $prohull verify back.obj utm.obj
 expect 0 "moved back, the mesh encloses it" $prohull verify utm.obj back.obj
+printf 'v 0 0 0\nv 1.0000000000000002 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n' >near.obj
+sed 's/1.0000000000000002/1/' near.obj | awk '/^v / { print "v", $2 - 1000, $3 - 1000, $4 - 1000; next } { print }' >beside.obj
+expect 2 "an offset that rounds" $prohull verify beside.obj near.obj --offset 1000,1000,1000
+says err "an offset that rounds" "1.0000000000000002 - 1000 is rounded"
 expect 2 "an offset of two numbers" $prohull verify utm.stl utm.obj --offset 1,2
 says err "an offset of two numbers" "'1,2' is no offset; it has 2 numbers, not 3"
 expect 0 "nothing to recenter" $prohull build inner.obj --faces 100 --recenter -o utm.stl

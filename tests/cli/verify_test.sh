@@ -30,4 +30,12 @@ expect 3 "an inner hull of an open original" $prohull verify inner.obj open.obj 
 says err "an inner hull of an open original" "not closed"
 expect 3 "an inner proof of an open original" $prohull verify inner.phull open.obj
 
+# --- a gap whose digits are more than those that are told ---
+cube() { printf "v %s\\n" "$1 $1 $1" "$1 $1 $2" "$1 $2 $1" "$1 $2 $2" "$2 $1 $1" "$2 $1 $2" "$2 $2 $1" "$2 $2 $2"
+  printf 'f 1 2 4\nf 1 4 3\nf 5 7 8\nf 5 8 6\nf 1 5 6\nf 1 6 2\nf 3 4 8\nf 3 8 7\nf 1 3 7\nf 1 7 5\nf 2 6 8\nf 2 8 4\n'; }
+cube 0 1 >cube.obj
+cube -0.12345678951 2 >around.obj
+expect 0 "a gap of many digits" $prohull verify around.obj cube.obj --gap 0.12345678951
+says out "a gap of many digits" "keeps a gap of 0.123456789, exactly"
+
 count_checks
