@@ -47,6 +47,8 @@ void print_summary(const RepairRunOptions& options, const RepairOutcome& outcome
       is_estimated ? fmt::format("about {:.3g} (estimated)", volume) : fmt::format("{:.9g}", volume));
   if (solid.folds.faces > 0)
     say("  {}: the faces around them were replaced by others, which cover them\n", describe(solid.folds));
+  if (solid.rounded_vertices > 0)
+    say("  moved {} to coordinates that the file keeps\n", counted(solid.rounded_vertices, "vertex", "vertices"));
   if (outcome.is_wrap())
     say("  it is another solid than the mesh: a wrap with a spacing of {0:.4g}, about a third of that farther out "
         "(around sheets about half, in places more than all of it), which closes openings narrower than about twice "
@@ -71,6 +73,7 @@ nlohmann::json report_of(const RepairRunOptions& options, const RepairOutcome& o
           {"volume_is_estimated", outcome.inside.is_estimated},
           {"source", name_of(source_names(), solid.source)},
           {"wrap_spacing", outcome.is_wrap() ? nlohmann::json(solid.wrap_spacing) : nlohmann::json()},
+          {"rounded_vertices", solid.rounded_vertices},
           {"folds", facts(solid.folds)},
           {"openings", {{"closed", repairs.closed_openings}, {"largest", repairs.largest_opening}}},
           {"verdict", facts(outcome.verdict)},

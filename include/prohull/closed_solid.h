@@ -13,17 +13,20 @@ struct ClosedSolidOptions {
   /// Of the wrap that is made where repairs do not do, in the input's unit; 0: 1/256 of the diagonal of the input's
   /// box.
   double spacing = 0;
-  bool float32_coordinates = false;  ///< round all coordinates to numbers that STL and GLB files keep
-  Progress progress = {};            ///< stages "wrap" and "verify"
+  /// Vertices of the repaired mesh move outwards to coordinates that STL and GLB files keep (with_float32_coordinates),
+  /// those of a wrap to the nearest ones.
+  bool float32_coordinates = false;
+  Progress progress = {};  ///< stages "wrap" and "verify"
 };
 
 /// What counts as the solid of a mesh.
 struct ClosedSolid {
-  TriangleMesh mesh;             ///< a closed 2-manifold, oriented outwards
-  Source source = Source::Mesh;  ///< the repaired mesh, or a wrap of it, which is another solid
-  double wrap_spacing = 0;       ///< of a wrap
-  Folds folds = {};              ///< of the repaired mesh, if `mesh` was changed around them so that it covers them
-  RepairedMesh input;            ///< `repairs` has the openings that were closed, `obstacle` why repairs do not do
+  TriangleMesh mesh;                 ///< a closed 2-manifold, oriented outwards
+  Source source = Source::Mesh;      ///< the repaired mesh, or a wrap of it, which is another solid
+  double wrap_spacing = 0;           ///< of a wrap
+  std::size_t rounded_vertices = 0;  ///< of the repaired mesh, how many were moved to float32 coordinates
+  Folds folds = {};                  ///< of the repaired mesh, if `mesh` was changed around them so that it covers them
+  RepairedMesh input;                ///< `repairs` has the openings that were closed, `obstacle` why repairs do not do
   Verification verdict;  ///< of `mesh` as an outer hull of the input; if it is `certified`, every triangle is covered
 };
 

@@ -22,8 +22,6 @@ constexpr double kFlatness = 0.08;
 constexpr double kPerDiagonal = 100;  // spacings of wraps that estimate volumes
 
 void judge(ClosedSolid& solid, const ClosedSolidOptions& options) {
-  if (options.float32_coordinates)
-    for (Vec3& p : solid.mesh.positions) p = nearest_float32(p);
   solid.verdict = of_file(verify_hull(solid.mesh, solid.input.original, HullSide::Outer,
                                       {.closed = solid.input.closed_mesh(), .progress = options.progress}),
                           solid.input);
@@ -34,7 +32,10 @@ TriangleMesh wrap_of(const RepairedMesh& input, double spacing, double flatness,
                                        .seal_rooms = !input.closed && options.repair.open_shells == OpenShells::Close,
                                        .flatness = flatness,
                                        .progress = options.progress});
-  return closed_mesh(std::move(made.mesh)).mesh;
+  TriangleMesh mesh = closed_mesh(std::move(made.mesh)).mesh;
+  if (options.float32_coordinates)  // it is far enough from the triangles
+    for (Vec3& p : mesh.positions) p = nearest_float32(p);
+  return mesh;
 }
 
 ClosedSolid solid_of(TriangleMesh triangles, const ClosedSolidOptions& options) {
@@ -42,6 +43,10 @@ ClosedSolid solid_of(TriangleMesh triangles, const ClosedSolidOptions& options) 
   solid.input = repaired_mesh(std::move(triangles), options.repair);
   if (solid.input.closed) {
     solid.mesh = solid.input.closed->mesh;
+    if (options.float32_coordinates) {
+      Float32Hull outwards = with_float32_coordinates(solid.mesh, HullSide::Outer, NoRoom::Round);
+      solid.mesh = std::move(outwards.mesh), solid.rounded_vertices = outwards.rounded_vertices;
+    }
     judge(solid, options);
     if (solid.verdict.certified) return solid;
     if (auto made =
@@ -54,7 +59,7 @@ ClosedSolid solid_of(TriangleMesh triangles, const ClosedSolidOptions& options) 
     }
   }
   if (options.float32_coordinates) check_float32_spacing(solid.input.original);
-  solid.source = Source::Wrap;
+  solid.source = Source::Wrap, solid.rounded_vertices = 0;
   solid.wrap_spacing = options.spacing > 0
                            ? options.spacing
                            : finite_bounding_box(solid.input.original).diagonal() / kSpacingsPerDiagonal;
