@@ -73,7 +73,8 @@ struct EnclosingHull {
   bool within_bounds = true;     ///< the hull keeps `bounds`
   double excess = 0;             ///< HullBounds::excess, if bounds were given; above 1 where it does not keep them
   double padding = 0;            ///< Verdict::gap, if EnclosingOptions::padding asks for one; else 0
-  double void_ratio = 0;  ///< volume of the hull / EnclosingHulls::volume - 1; NaN if that is not known well enough
+  double volume_inside = 0;      ///< EnclosingHulls::volume; of an estimate, that with which bounds compare this hull
+  double void_ratio = 0;         ///< volume of the hull / volume_inside - 1; NaN if that is not known well enough
   Source source = Source::Mesh;
   std::vector<std::string> notes;  ///< sentences for the user: why something is not as asked for, and what to look at
 
@@ -119,7 +120,8 @@ struct EnclosingHulls {
   RepairedMesh input;
   std::vector<Solid> solids;         ///< all that were tried, in this order
   std::vector<EnclosingHull> hulls;  ///< one for each number of faces, in the order in which they were asked for
-  /// Of what lies inside of the input, with the cavities that repairs have filled; 0 if nothing is known of it.
+  /// Of what lies inside of the input, with the cavities that repairs have filled; 0 if nothing is known of it. An
+  /// estimate is that of the first hull: a wrap tells it, and hulls of other numbers of faces have other wraps.
   double volume = 0;
   /// `volume` is an estimate, by lines or from a wrap. Else it is Verification::original_volume, or where cavities are
   /// filled that of RepairedMesh::closed.

@@ -78,9 +78,9 @@ py::dict facts_of(EnclosingHull hull, const Judges& judges, const EnclosingHulls
   facts["original"] = judges.original();
   facts["covered"] = judges.covered(hull);
   facts["measured"] = judges.measured(hull);
-  facts["volume_inside"] = std::isnan(hull.void_ratio) ? 0 : made.volume;
+  facts["volume_inside"] = std::isnan(hull.void_ratio) ? 0 : hull.volume_inside;
   if (options.bounds.any())
-    facts["bounds"] = py::make_tuple(judges.bounded(hull), made.volume > 0 ? made.volume : solid.volume,
+    facts["bounds"] = py::make_tuple(judges.bounded(hull), hull.volume_inside > 0 ? hull.volume_inside : solid.volume,
                                      options.bounds.max_distance, options.bounds.max_void_ratio);
   facts["replay_suffices"] =
       solid.source == Source::Mesh && solid.self_intersections == 0 && made.input.dropped.face_count() == 0;

@@ -72,7 +72,9 @@ EnclosingHulls best_hulls(Request request, std::span<const std::size_t> target_f
   for (const std::size_t faces : target_faces) made.hulls.push_back(best_hull(request, faces, solids));
   const double volume = solids.filled_volume().value_or(made.hulls.front().verdict.original_volume);
   made.is_estimated = !(volume > 0);
-  made.volume = made.is_estimated ? solids.volume(target_faces.front()) : volume;
+  for (EnclosingHull& hull : made.hulls)
+    hull.volume_inside = made.is_estimated ? solids.volume(hull.target_faces) : volume;
+  made.volume = made.hulls.front().volume_inside;
   require_volume(made.volume, bounds);
   made.repair_seconds = solids.repair_seconds();
   made.solids = solids.taken();
@@ -102,9 +104,9 @@ double volume_of(const EnclosingHull& hull) {
 // No estimate may say that what encloses is smaller than what it encloses, nor may rounding. More than rounding is told
 // as it is: it would be a mistake, for both volumes are proven to be those of solids of which one encloses the other.
 double known_void(const EnclosingHulls& made, const EnclosingHull& hull) {
-  const double ratio = hull.verdict.hull_volume / made.volume - 1;
+  const double ratio = hull.verdict.hull_volume / hull.volume_inside - 1;
   const bool is_possible = hull.verdict.side == HullSide::Outer ? ratio >= 0 : ratio <= 0;
-  if (!(made.volume > 0) || (!is_possible && made.is_estimated)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(hull.volume_inside > 0) || (!is_possible && made.is_estimated)) return std::numeric_limits<double>::quiet_NaN();
   constexpr double kRounding = 1e-9;
   return !is_possible && std::abs(ratio) < kRounding ? 0.0 : ratio;
 }

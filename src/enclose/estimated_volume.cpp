@@ -14,8 +14,8 @@ namespace {
 
 struct Crossing {
   std::uint32_t line;
-  float height;
-  int winding;  ///< by how much it grows there
+  float height;  ///< in a power of two near the length of lines
+  int winding;   ///< by how much it grows there
 };
 
 /// Lines along the longest side of the box around a mesh, through the middles of cells of its other two sides.
@@ -28,6 +28,7 @@ class Lines {
     constexpr double kMostCrossings = 0x1p20, kFewest = 16, kMost = 256;
     per_side_ = std::size_t(std::clamp(std::sqrt(kMostCrossings * cross_section / area_of(mesh)), kFewest, kMost));
     step_u_ = size[u()] / double(per_side_), step_v_ = size[v()] / double(per_side_);
+    unit_ = std::ldexp(1.0, std::ilogb(size[along_]));
   }
 
   void cross(const Triangle& t, std::vector<Crossing>& crossings) const {
@@ -42,11 +43,11 @@ class Lines {
         const double of_a = area(x, y, b, c) / turned, of_b = area(x, y, c, a) / turned, of_c = 1 - of_a - of_b;
         if (!(of_a >= 0 && of_b >= 0 && of_c >= 0)) continue;
         const double height = of_a * a[along_] + of_b * b[along_] + of_c * c[along_] - box_.min[along_];
-        crossings.push_back({std::uint32_t(i * per_side_ + j), float(height), turned < 0 ? 1 : -1});
+        crossings.push_back({std::uint32_t(i * per_side_ + j), float(height / unit_), turned < 0 ? 1 : -1});
       }
   }
 
-  double volume(double length) const { return length * step_u_ * step_v_; }
+  double volume(double length) const { return length * unit_ * step_u_ * step_v_; }
 
  private:
   int u() const { return (along_ + 1) % 3; }
@@ -66,7 +67,7 @@ class Lines {
   Box box_;
   int along_;
   std::size_t per_side_;
-  double step_u_, step_v_;
+  double step_u_, step_v_, unit_;
 };
 
 }  // namespace

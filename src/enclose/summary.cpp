@@ -158,14 +158,11 @@ std::string certificate_of(const Verdict& verdict, const std::string& subject, c
 }
 
 std::string text_of_void(double void_ratio) {
-  constexpr double kMost = 1e4;
-  if (std::isnan(void_ratio)) return "";
-  if (void_ratio > kMost) return fmt::format(", void more than {:.0f} %", 100 * kMost);
-  return fmt::format(", void {:.3f} %", 100 * void_ratio);
+  return std::isnan(void_ratio) ? "" : ", void " + percent_text(void_ratio, 3);
 }
 
 std::string described_void(const EnclosingHulls& made, const EnclosingHull& hull) {
-  if (std::isnan(hull.void_ratio)) return fmt::format(", volume {:.4g}", signed_volume(hull.mesh));
+  if (std::isnan(hull.void_ratio)) return fmt::format(", volume {:.4g}", volume_of(hull));
   return text_of_void(hull.void_ratio) + (made.is_estimated ? " (estimated)" : "");
 }
 

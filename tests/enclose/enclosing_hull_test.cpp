@@ -496,6 +496,27 @@ TEST(ClosedSolid, HasFewerFacesWhereAnOpenShellIsFlat) {
   EXPECT_LT(double(solid.mesh.face_count()), 0.8 * double(wrap(open, {.spacing = spacing}).mesh.face_count()));
 }
 
+// Rounded to the nearest, it would not cover itself, and a wrap took its place.
+TEST(ClosedSolid, InFloat32IsTheMeshWithVerticesMovedOutwards) {
+  const TriangleMesh ball = sphere(3);
+  const ClosedSolid solid = closed_solid(ball, {.float32_coordinates = true});
+  EXPECT_TRUE(solid.verdict.certified);
+  EXPECT_EQ(solid.source, Source::Mesh);
+  EXPECT_EQ(solid.mesh.face_count(), ball.face_count());
+  EXPECT_LT(distance_bounds(solid.mesh, ball).upper, 1e-5);
+  for (const Vec3& p : solid.mesh.positions) EXPECT_TRUE(is_float32(p));
+}
+
+TEST(ClosedSolid, BeyondTheRangeOfFloat32IsRefused) {
+  try {
+    closed_solid(scaled(sphere(2), 1e39), {.float32_coordinates = true});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string_view(error.what()).find("do not fit the float32 of the file"), std::string_view::npos)
+        << error.what();
+  }
+}
+
 // The wrap would collapse on the float32 grid, which took minutes to find out.
 TEST(ClosedSolid, InFloat32FarFromTheOriginIsRefusedBeforeAWrapIsMade) {
   EXPECT_THROW(closed_solid(moved(folded_rock(), {1e9, 1e9, 0}), {.float32_coordinates = true}), InputError);
@@ -537,6 +558,9 @@ TEST(EnclosingHull, VolumesAreEstimatedByWhatAMeshWindsAround) {
   EXPECT_NEAR(estimated_volume(together(box({-2, -2, -2}, {2, 2, 2}), inside_out(sphere))), 64 - signed_volume(sphere),
               0.1);
   EXPECT_EQ(estimated_volume(together(beam, inside_out(beam))), 0);
+  const double volume = estimated_volume(sphere);
+  for (const double size : {0x1p-250, 0x1p-140, 0x1p140, 0x1p250})
+    EXPECT_EQ(estimated_volume(scaled(sphere, size)), volume * size * size * size) << size;
 }
 
 // A ring of boxes, each of which crosses many others: more than can be counted exactly. Its convex hull has twice the
@@ -774,6 +798,39 @@ TEST(EnclosingHull, OfASoupIsTheSameBesideOtherBudgets) {
   const EnclosingOptions options{.repair = Repair::Wrap, .open_shells = OpenShells::Keep};
   const EnclosingHulls both = enclosing_hulls(soup, std::array<std::size_t, 2>{30, 120}, options);
   EXPECT_EQ(both.hulls[1].mesh, enclosing_hull(soup, 120, options).mesh);
+}
+
+// With those that find less inside, as coarse wraps of narrow gaps do.
+TEST(EnclosingHull, OfASoupHasTheSameVoidBesideOtherBudgets) {
+  TriangleMesh shards = soup(make_sample("pony", 400));
+  for (const auto& corners : shards.triangles) {
+    const Vec3 center =
+        (shards.positions[corners[0]] + shards.positions[corners[1]] + shards.positions[corners[2]]) / 3;
+    for (const VertexId v : corners) shards.positions[v] = center + (shards.positions[v] - center) * 0.98;
+  }
+  const EnclosingOptions options{.open_shells = OpenShells::Keep};
+  const EnclosingHulls both = enclosing_hulls(shards, std::array<std::size_t, 2>{20, 120}, options);
+  const EnclosingHull alone = enclosing_hull(shards, 120, options);
+  EXPECT_EQ(both.hulls[1].mesh, alone.mesh);
+  EXPECT_GT(alone.void_ratio, 0);
+  EXPECT_EQ(both.hulls[1].void_ratio, alone.void_ratio);
+  EXPECT_NE(both.volume, alone.verdict.hull_volume / (1 + alone.void_ratio)) << "their wraps tell the same";
+}
+
+// Their wraps would need grids that are finer than coordinates.
+TEST(EnclosingHull, OfTrianglesThatAreAsSmallAsRoundingIsThatOfTheConvexHull) {
+  const TriangleMesh far = make({{1e9 + 0x1p-23, 1e9, 1e9},
+                                 {1e9, 1e9 + 0x1p-23, 1e9},
+                                 {1e9, 1e9, 1e9 + 0x1p-22},
+                                 {1e9 + 0x1p-22, 1e9 + 0x1p-22, 1e9},
+                                 {1e9 + 0x1p-23, 1e9 + 0x1p-22, 1e9 + 0x1p-23}},
+                                {{0, 1, 2}, {1, 3, 4}, {2, 4, 0}});
+  for (const EnclosingOptions& options :
+       {EnclosingOptions{.bounds = {.max_distance = 1e-9}}, EnclosingOptions{.repair = Repair::Wrap}}) {
+    const EnclosingHull hull = enclosing_hull(far, 30, options);
+    EXPECT_TRUE(hull.certified);
+    EXPECT_EQ(hull.source, Source::ConvexHull);
+  }
 }
 
 // Two boxes that cross, without some of their faces: what the hull leaves uncovered are caps, which have no place among
