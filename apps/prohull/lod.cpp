@@ -21,7 +21,7 @@ struct LodOptions {
 TriangleMesh level_of(const ProgressiveHull& hull, const LodOptions& options, const std::string& suffix) {
   TriangleMesh level =
       hull.level(options.mirror ? symmetric_faces(hull, *options.mirror, options.faces) : options.faces);
-  if (stores_float32(mesh_format("mesh" + suffix))) level = with_float32_coordinates(level, hull.side()).mesh;
+  if (stores_float32(mesh_format("mesh" + suffix))) level = float32_level(hull, level);
   if (options.mirror && !inspect_symmetry(level, *options.mirror).is_symmetric())
     throw InputError(
         Defect::InvalidOption,

@@ -110,7 +110,7 @@ val level(const val& levels, double faces, const val& given, const val& progress
                      fmt::format("faces={:.17g}: the coarsest level has {} faces", faces, hull.base_face_count()));
   const auto target = static_cast<std::size_t>(std::min<double>(faces, 0xffffffff));
   TriangleMesh found = hull.level(target);
-  if (float32) found = with_float32_coordinates(found, hull.side()).mesh;
+  if (float32) found = float32_level(hull, found);
   val object = object_of_mesh(found);
   if (file.empty()) return object;
   const TriangleMesh written = read_mesh(std::string_view(mesh_content(file, found)), file), finest = hull.original();

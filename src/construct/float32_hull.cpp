@@ -13,8 +13,8 @@
 #include "geometry/float32.h"
 #include "geometry/largest_coordinate.h"
 #include "geometry/linear_program.h"
-#include "geometry/predicates.h"
 #include "mesh/half_edge_mesh.h"
+#include "prohull/detail/text.h"
 #include "prohull/error.h"
 
 namespace prohull {
@@ -59,23 +59,15 @@ class VertexMover {
     const Vec3& p = mesh_.position(v);
     throw InputError(
         Defect::NoVolume,
-        fmt::format("{} vertices, the first at ({:.9g}, {:.9g}, {:.9g}), cannot be moved outwards to float32 "
-                    "coordinates; write a .ply, .obj or .off file, which keep doubles",
-                    count, p.x, p.y, p.z));
+        fmt::format("{}, the first at ({:.9g}, {:.9g}, {:.9g}), cannot be moved outwards to float32 coordinates; write "
+                    "a .ply, .obj or .off file, which keep doubles",
+                    counted(count, "vertex", "vertices"), p.x, p.y, p.z));
   }
 
   // Does use(corner after v, corner before v) for each face around v.
   template <class Use>
   void around(VertexId v, Use&& use) const {
     for (const HalfEdgeId h : mesh_.around(v)) use(mesh_.tip(h), mesh_.tail(mesh_.previous(h)));
-  }
-
-  bool is_outside(VertexId v, const Vec3& p) const {
-    bool outside = true;
-    around(v, [&](VertexId a, VertexId b) {
-      outside = outside && side(mesh_.position(v), mesh_.position(a), mesh_.position(b), p) != Side::Inside;
-    });
-    return outside;
   }
 
   // The spacing of float32 coordinates around v, at most.
@@ -108,8 +100,8 @@ class VertexMover {
     const auto step = optimum_or_nearest(objective / size, constraints_);
     if (!step) return std::nullopt;
     const Vec3 p = nearest_float32(origin + *step * clearance);
-    return is_finite(p) && norm(p - level_.positions[v]) <= reach(v) && is_outside(v, p) ? std::optional(p)
-                                                                                         : std::nullopt;
+    return is_finite(p) && norm(p - level_.positions[v]) <= reach(v) && is_outside(mesh_, v, p) ? std::optional(p)
+                                                                                                : std::nullopt;
   }
 
   bool move_nearby(VertexId v) {
@@ -135,7 +127,7 @@ class VertexMover {
         q[axis] = i >> axis & 1 ? above : below;
       }
       if (best && squared_norm(q - p) >= squared_norm(*best - p)) continue;
-      if (is_finite(q) && is_outside(v, q)) best = q;
+      if (is_finite(q) && is_outside(mesh_, v, q)) best = q;
     }
     return best;
   }

@@ -9,19 +9,10 @@
 #include "geometry/closest_point.h"
 #include "geometry/float32.h"
 #include "geometry/linear_program.h"
-#include "geometry/predicates.h"
 #include "mesh/half_edge_mesh.h"
 
 namespace prohull {
 namespace {
-
-bool is_outside(const HalfEdgeMesh& mesh, VertexId v, const Vec3& p) {
-  for (const HalfEdgeId h : mesh.around(v))
-    if (side(mesh.position(v), mesh.position(mesh.tip(h)), mesh.position(mesh.tail(mesh.previous(h))), p) ==
-        Side::Inside)
-      return false;
-  return true;
-}
 
 /// The point that adds the least volume and lies `clearance` outside of all planes around v.
 std::optional<Vec3> lifted(const HalfEdgeMesh& mesh, VertexId v, double clearance) {

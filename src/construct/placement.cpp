@@ -142,4 +142,12 @@ bool is_outside(const HalfEdgeMesh& mesh, const Star& star, const Vec3& apex) {
                    [&](const Vec3& a, const Vec3& b, const Vec3& c) { return side(a, b, c, apex) != Side::Inside; });
 }
 
+bool is_outside(const HalfEdgeMesh& mesh, VertexId v, const Vec3& p) {
+  for (const HalfEdgeId h : mesh.around(v))
+    if (side(mesh.position(v), mesh.position(mesh.tip(h)), mesh.position(mesh.tail(mesh.previous(h))), p) ==
+        Side::Inside)
+      return false;
+  return true;
+}
+
 }  // namespace prohull

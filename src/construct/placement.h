@@ -73,5 +73,7 @@ double estimated_volume(const HalfEdgeMesh& mesh, const Star& star);
 
 /// Exact: the apex, as stored, is outside of or on the supporting plane of every face of the star.
 bool is_outside(const HalfEdgeMesh& mesh, const Star& star, const Vec3& apex);
+/// Exact: the point is outside of or on the supporting plane of every face around v.
+bool is_outside(const HalfEdgeMesh& mesh, VertexId v, const Vec3& p);
 
 }  // namespace prohull

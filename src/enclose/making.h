@@ -44,9 +44,6 @@ constexpr double kNearerByMoving = 4;  ///< by moving, a hull comes so much near
 /// Moving takes 0.1 to 0.4 ms for each face, most of it in soups.
 inline bool is_small(std::size_t faces) { return faces <= 16'000; }
 
-/// A large hull that misses the bounds by more than it could gain stays as it is.
-inline bool is_worth_moving(std::size_t faces, double excess) { return is_small(faces) || excess <= kNearerByMoving; }
-
 /// Moved towards the triangles; in few rounds, where they are few beside its faces.
 TriangleMesh placed(const TriangleMesh& level, const Making& making);
 TriangleMesh placed(const TriangleMesh& level, const Making& making, unsigned max_rounds);

@@ -14,6 +14,7 @@
 #include "progress.h"
 #include "prohull/closed_solid.h"
 #include "prohull/convex_hull.h"
+#include "prohull/detail/float32_hull.h"
 #include "prohull/distance.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
@@ -515,6 +516,27 @@ TEST(ClosedSolid, BeyondTheRangeOfFloat32IsRefused) {
     EXPECT_NE(std::string_view(error.what()).find("do not fit the float32 of the file"), std::string_view::npos)
         << error.what();
   }
+}
+
+// Around saddles, a vertex may have no room outside of its faces: what is rounded encloses the finest level even so.
+TEST(Float32Level, IsProvenWhereAVertexHasNoRoom) {
+  const TriangleMesh pony = make_sample("pony", 800);
+  int without_room = 0;
+  for (const HullSide side : {HullSide::Outer, HullSide::Inner}) {
+    const ProgressiveHull hull = build_hull(pony, {.target_faces = 30, .side = side, .relax_guards = true}).hull;
+    for (const std::size_t faces : {30, 60, 100, 200}) {
+      const TriangleMesh level = hull.level(faces);
+      try {
+        with_float32_coordinates(level, side);
+      } catch (const InputError&) {
+        ++without_room;
+      }
+      const TriangleMesh rounded = float32_level(hull, level);
+      EXPECT_TRUE(std::ranges::all_of(rounded.positions, [](const Vec3& p) { return is_float32(p); }));
+      EXPECT_TRUE(verify_hull(rounded, pony, side).certified) << faces;
+    }
+  }
+  EXPECT_GT(without_room, 0);
 }
 
 // The wrap would collapse on the float32 grid, which took minutes to find out.

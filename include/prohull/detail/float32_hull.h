@@ -39,4 +39,8 @@ enum class NoRoom {
 /// Throws InputError as check_float32_spacing does, unless the coordinates are float32 numbers already.
 Float32Hull with_float32_coordinates(const TriangleMesh& level, HullSide side, NoRoom no_room = NoRoom::Refuse);
 
+/// A level of a hull, moved to such coordinates. Where a vertex has no room, it is rounded to the nearest ones, if the
+/// result is proven to enclose the finest level even so. Throws InputError as NoRoom::Refuse does otherwise.
+TriangleMesh float32_level(const ProgressiveHull& hull, const TriangleMesh& level);
+
 }  // namespace prohull
