@@ -28,8 +28,8 @@ says solid.json "repair: source" '"source": "mesh"'
 expect 0 "repair: an inside" $prohull contains solid.ply --random 10
 expect 0 "repair: verified" $prohull verify solid.ply open.obj
 expect 0 "repair in float32" $prohull repair open.obj --spacing 2% -o solid.stl --report solid.json
-says out "repair in float32" "it is another solid than the mesh: a wrap with a spacing of"
-says out "repair in float32" "with float32 coordinates"
+says out "repair in float32" "solid.stl: solid of"
+says out "repair in float32" "to coordinates that the file keeps"
 says solid.json "repair in float32" '"certified": true'
 expect 0 "repair in float32: verified" $prohull verify solid.stl open.obj
 printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 -1\n3 0 1 2\n3 0 1 3\n3 0 1 4\n' >book.off
