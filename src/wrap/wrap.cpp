@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/bvh.h"
 #include "geometry/largest_coordinate.h"
 #include "prohull/error.h"
 #include "wrap/inside.h"
