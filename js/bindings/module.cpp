@@ -321,11 +321,17 @@ val inspect_mesh(const val& mesh) {
 val read(const val& bytes, const std::string& name, const val& given) {
   const std::vector<unsigned char> content = emscripten::convertJSArrayToNumberVector<unsigned char>(bytes);
   const std::string_view text(reinterpret_cast<const char*>(content.data()), content.size());
-  ReadOptions options{.non_finite = NonFinite::Keep};
+  FileUnit unit;
+  ReadOptions options{.non_finite = NonFinite::Keep, .unit = &unit};
   const Given named(given);
-  named.choice("unit", length_units(), options.scale);
+  const bool has_unit = named.choice("unit", length_units(), options.scale);
   named.refuse_others();
-  return object_of_mesh(read_mesh(text, name, options));
+  val object = object_of_mesh(read_mesh(text, name, options));
+  if (has_unit && unit.is_said && options.scale != unit.metres)
+    throw InputError(Defect::InvalidOption,
+                     name + ": a unit is for files that do not say theirs; this one is in metres");
+  object.set("inMetres", has_unit || unit.metres == 1);
+  return object;
 }
 
 val write(const val& mesh, const std::string& name) {

@@ -26,7 +26,7 @@ export interface Engine {
   scene(hull: Parameters<typeof prohull.scene>[0], original: Parameters<typeof prohull.scene>[1], options?: {side?: prohull.Side},
     progress?: Progress): {facts: string; blocks: Uint8Array};
   figure(name: string, args: unknown[]): any;
-  read(bytes: ArrayBuffer | Uint8Array, name: string, options?: {unit?: prohull.Unit}): Promise<Mesh>;
+  read(bytes: ArrayBuffer | Uint8Array, name: string, options?: {unit?: prohull.Unit}): Promise<prohull.MeshOfFile>;
   write(mesh: MeshLike, name: string): Uint8Array;
   readLevels(bytes: ArrayBuffer | Uint8Array, name: string): Levels;
   writeLevels(levels: Levels): Uint8Array;

@@ -201,9 +201,14 @@ export function repair(
     float32Coordinates?: boolean}): Promise<Repaired>;
 /** What a mesh is, and what is wrong with it. */
 export function inspect(mesh: MeshLike, running?: Running): Promise<Inspection>;
-/** Reads STL, OBJ, PLY, OFF or GLB, plain or gzipped. Such a suffix of the name tells the format; of any other name, the
- * content does. `unit`: that of the file, whose lengths are then converted to metres. */
-export function read(bytes: ArrayBuffer | Uint8Array, name: string, options?: Running & {unit?: Unit}): Promise<Mesh>;
+/** What a file holds. */
+export interface MeshOfFile extends Mesh {
+  /** Whether its numbers are metres: those of COLLADA and glTF are, and those that were read with a unit. */
+  inMetres: boolean;
+}
+/** Reads STL, OBJ, PLY, OFF, GLB or COLLADA, plain or gzipped. Such a suffix of the name tells the format; of any other name, the
+ * content does. `unit`: that of the file, whose lengths are then converted to metres; COLLADA says its own. */
+export function read(bytes: ArrayBuffer | Uint8Array, name: string, options?: Running & {unit?: Unit}): Promise<MeshOfFile>;
 /** The bytes of a file of that name: .stl, .obj, .ply, .off or .glb. */
 export function write(mesh: MeshLike, name: string): Promise<Uint8Array>;
 /** Reads the bytes of a .phull file. It does not hold the original, only the finest level, and what that is of the original. */

@@ -2,10 +2,13 @@
 // readers of meshes ask for stands here.
 #include <fmt/format.h>
 
+#include "collada.h"
 #include "io/file.h"
 #include "io/file_content.h"
 #include "io/file_unit.h"
 #include "io/imported_mesh.h"
+#include "io/mesh_readers.h"
+#include "prohull/detail/extension.h"
 #include "prohull/detail/memory.h"
 #include "prohull/error.h"
 
@@ -15,6 +18,8 @@ namespace {
 [[noreturn]] void refuse_file(const std::string& name) {
   throw InputError(Defect::CannotRead, fmt::format("{}: no file can be opened here, only what is in memory", name));
 }
+
+bool is_collada(const std::filesystem::path& name) { return lower_case_extension(without_gz(name)) == ".dae"; }
 
 }  // namespace
 
@@ -37,11 +42,15 @@ std::optional<FileContent> decompressed(std::string_view bytes, const std::files
   return {};
 }
 
-FileUnit unit_of_file(std::string_view, const std::filesystem::path&) { return {}; }
+FileUnit unit_of_file(std::string_view content, const std::filesystem::path& name) {
+  if (is_collada(name)) return {1, true};
+  return lower_case_extension(without_gz(name)) == ".gltf" || is_glb(content) ? FileUnit{1, false} : FileUnit{};
+}
 
 ImportLimits import_limits(std::size_t) { return {}; }
 
-TriangleMesh imported_mesh(std::string_view, const std::string& file, const ImportLimits&, const Progress&) {
+TriangleMesh imported_mesh(std::string_view content, const std::string& file, const ImportLimits&, const Progress&) {
+  if (is_collada(file)) return collada_mesh(content, file, decompression_limit(content.size()));
   throw InputError(Defect::UnknownFormat,
                    fmt::format("{}: only the program prohull reads this format; convert it to PLY, OBJ, STL or GLB, "
                                "with Blender or MeshLab for example",

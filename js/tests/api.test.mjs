@@ -5,7 +5,7 @@ import {execFileSync} from 'node:child_process';
 import {gzipSync} from 'node:zlib';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
-import {cube, engine, hasProgram, loadEngine, prohull, run, sample, scratch} from './package.mjs';
+import {collada, cube, engine, hasProgram, loadEngine, prohull, run, sample, scratch} from './package.mjs';
 
 const refused = (call, says) => assert.rejects(call, (error) => {
   assert.equal(error.name, 'InputError');
@@ -115,6 +115,20 @@ test('a file with a unit is read in metres, and lengths may then have units', as
   assert.equal(await prohull.length('5mm', inches, {inMetres: true}), 0.005);
   await refused(prohull.length('5mm', inches), /5mm: expected a number in the unit of the mesh/);
   await refused(prohull.read(bytes, 'a.obj', {unit: 'mile'}), /unit=mile: expected one of mm, cm, m, in, ft/);
+});
+
+test('COLLADA is in metres, and what is cut off or holds itself is refused at once', async () => {
+  const read = (text, options) => engine.read(new TextEncoder().encode(text), 'a.dae', options), metres = await read(collada);
+  assert.ok(metres.inMetres && Math.max(...metres.vertices) < 0.1);
+  assert.deepEqual((await prohull.read(gzipSync(collada), 'a.dae.gz')).vertices, metres.vertices);
+  await assert.rejects(read(collada, {unit: 'mm'}), /^InputError: a\.dae: a unit is for files that do not say theirs/);
+  for (let at = 0; at < collada.length - 1; at += 3) await assert.rejects(read(collada.slice(0, at)), /^InputError: a\.dae: [^\n]+$/, String(at));
+  for (const [old, next, says] of [
+    ['<scale>-1 1 1.1</scale>', '<instance_node url="#again"/>'.repeat(2), /more than the limit for its size/],
+    ['<?xml', '<!DOCTYPE a [<!ENTITY b "c">]><?xml', /line 1: document types are not read/], ['5 0 6 11', '5 0 6 12', /it has no position 12/],
+    ['count="36"', 'count="4000000000"', /a number was expected/], ['<vcount>6 6', '<vcount>6 5', /other numbers of indices/], ['3.1415926', '3.14x', /a number was expected where 'x 0/],
+    ['#scene', 'scene', /refers to/], ['"#numbers"', '"#none"', /positions are not there/], ['stride="3"', 'stride="4294967295"', /no position/], ['COLLADA xmlns', 'collada xmlns', /closes nothing/]])
+    await assert.rejects(read(collada.replace(old, next)), says, next);
 });
 
 test('distances from an open mesh are told from its triangles, and from its solid with the openings closed', async () => {

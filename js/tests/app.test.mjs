@@ -8,7 +8,7 @@ import {createRequire} from 'node:module';
 import {basename, dirname, join, relative} from 'node:path';
 import test from 'node:test';
 import {app, inBrowser, kPatience} from './pages.mjs';
-import {hasProgram, run, scratch} from './package.mjs';
+import {collada, hasImporter, hasProgram, run, scratch} from './package.mjs';
 
 const cases = process.env.PROHULL_CASES, checker = process.env.PROHULL_CHECK;
 const pictureFile = process.env.PROHULL_PICTURE;  // where the picture of docs/browser.md goes, if it is to be made
@@ -506,6 +506,26 @@ test('the hulls of a robot are of its collision meshes, if the form says so', {s
   await closed(page);
 });
 
+test('COLLADA is read as the command reads it, alone and of a robot', {skip: skip || (!hasImporter && 'there is no program that reads it')}, async () => {
+  const page = await opened({fragment: '#faces=30&gap=1mm'}), folder = join(scratch, 'dae'), own = join(scratch, 'dae_own'), part = join(folder, 'part.dae');
+  mkdirSync(folder);
+  writeFileSync(part, collada);
+  copyFileSync(part, join(scratch, 'part.dae'));
+  await dropped(page, part);
+  assert.equal(await text(page, 'problem'), '');
+  const hull = await saved(page, 'save');
+  assert.equal(hash(hull.bytes), hash(await commanded(page, hull)));
+  assert.ok(await page.isHidden('#save-certificate'), 'prohull_check does not read it');
+  writeFileSync(join(folder, 'a.urdf'), '<robot name="a"><link name="a"><visual><geometry><mesh filename="part.dae" scale="2 2 2"/></geometry></visual></link></robot>');
+  await droppedFolder(page, folder);
+  await settled(page);
+  assert.equal(await text(page, 'left-out'), '');
+  const files = createRequire(import.meta.url)('fflate').unzipSync((await saved(page, 'save-robot')).bytes);
+  run('urdf', join(folder, 'a.urdf'), '-o', own, '--faces', '30', '--configurations', '0', '--prove', '0', '--no-pictures', '--no-cache');
+  assert.equal(hash(files['meshes/collision/a_hull.stl']), hash(readFileSync(join(own, 'meshes/collision/a.stl'))));
+  await closed(page);
+});
+
 test('a robot of a stranger stays harmless', {skip}, async () => {
   const {strToU8, zipSync} = createRequire(import.meta.url)('fflate'), page = await opened({fragment: '#faces=100&distance=5'});
   const tetrahedron = strToU8('v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n'), html = '<img src=x onerror=alert(1)>';
@@ -520,7 +540,7 @@ test('a robot of a stranger stays harmless', {skip}, async () => {
   assert.equal(await page.locator('img').count(), 0);
   assert.deepEqual((await rows(page)).map((cells) => [cells[0], cells.length > 2 ? cells[4] : cells[1].slice(0, 12)]),
     [['../../up', 'yes'], [html, 'yes'], ['d', 'b/broken.stl']]);
-  assert.match(await text(page, 'left-out'), /^c keeps what it has: .*it leads out of the folder.*COLLADA/);
+  assert.match(await text(page, 'left-out'), /^c keeps what it has: .*it leads out of the folder.*there is no file b\/e\.dae/);
   const zip = await saved(page, 'save-robot');
   const made = createRequire(import.meta.url)('fflate').unzipSync(zip.bytes);
   assert.deepEqual(Object.keys(made).sort(), ['_img src=x onerror=alert(1)_.urdf', 'meshes/collision/_.._.._up_hull.stl', 'meshes/collision/_img_src_x_onerror_alert_1___hull.stl', 'report.json']);

@@ -44,12 +44,12 @@ test('without collision elements, hulls stand behind the visual ones; without vi
 
 test('a link has all of its hulls or none, and says why', () => {
   const plan = planned(`<link name="a">${visual(mesh('a.stl'))}${visual(mesh('b.stl'))}</link><link name="b">${visual(mesh('b.stl'))}</link>` +
-      `<link name="c">${visual(mesh('c.dae'))}</link><link name="d">${visual(mesh('d.stl'))}</link><link name="e">${visual('<box size="1 1 1"/>')}</link>` +
+      `<link name="c">${visual(mesh('c.fbx'))}</link><link name="d">${visual(mesh('d.stl'))}</link><link name="e">${visual('<box size="1 1 1"/>')}</link>` +
       `<link name="f">${visual(mesh('a.stl', ' scale="1 0 1"'))}</link><link name="g">${visual(mesh('a.stl'))}<visual/></link>` +
       `<link name="h">${visual(mesh('a.stl'))}${visual('<torus/>')}</link><link name="i"/>`);
   const outcomes = made(plan);
   outcomes.set(plan.works[0], {why: 'it is empty'});
-  assert.deepEqual(plan.links.map((link) => whyLeft(link, outcomes)), ['it is empty', null, 'c.dae: COLLADA is not read here; the program prohull reads it',
+  assert.deepEqual(plan.links.map((link) => whyLeft(link, outcomes)), ['it is empty', null, 'c.fbx: files of this format are not read here',
     'd.stl: there is no file r/d.stl', 'its visual geometry has no mesh', 'the scale of a.stl is not three numbers other than 0', 'a <visual> has no geometry',
     'geometry of type torus is not read', 'its collision geometry has no mesh']);
   const {text, works} = withHulls(plan, outcomes);

@@ -1,9 +1,9 @@
 // The module and the program make the same bits: of each mesh, with several options, the bytes of the files they write.
 import assert from 'node:assert/strict';
-import {existsSync, readdirSync, readFileSync} from 'node:fs';
+import {existsSync, readdirSync, readFileSync, writeFileSync} from 'node:fs';
 import {basename, join} from 'node:path';
 import test from 'node:test';
-import {bytesOf, engine, hasProgram, run, sample, scratch} from './package.mjs';
+import {bytesOf, collada, engine, hasImporter, hasProgram, run, sample, scratch} from './package.mjs';
 
 const models = process.env.PROHULL_MODELS;
 
@@ -79,6 +79,14 @@ for (const name of ['sphere', 'torus', 'knot', 'asteroid', 'box', 'bracket', 'gy
   test(`sample ${name}`, {skip: !hasProgram && 'there is no program to compare with'},
     (t) => compare(t, sample(name, 1500), () => true));
 
+test('COLLADA', {skip: !hasImporter && 'there is no program that reads it'}, async (t) => {
+  const file = join(scratch, 'brackets.dae');
+  writeFileSync(file, collada);
+  const {vertices, faces, inMetres} = await engine.read(readFileSync(file), 'brackets.dae');
+  assert.deepEqual([vertices.length / 3, faces.length / 3, inMetres], [24, 40, true]);
+  await compare(t, file, (what) => what === 'default' || what === 'stl');  // a hull of 300 faces is the mesh itself
+});
+
 test('distances of a summary, down to their rounding', {skip: !hasProgram && 'there is no program to compare with'}, async () => {
   const file = sample('torus', 2000), mesh = await engine.read(readFileSync(file), 'torus.ply'), report = join(scratch, 'far.json');
   for (const faces of [5000, 100]) {
@@ -89,7 +97,7 @@ test('distances of a summary, down to their rounding', {skip: !hasProgram && 'th
 
 const hasModels = models !== undefined && existsSync(models);
 test('models', {skip: !(hasModels && hasProgram) && 'PROHULL_MODELS names no folder'}, async (t) => {
-  for (const file of readdirSync(models).filter((f) => /\.(obj|off|stl|ply)(\.gz)?$/.test(f))) {
+  for (const file of readdirSync(models).filter((f) => /\.(obj|off|stl|ply|dae)(\.gz)?$/.test(f))) {
     const [, faces] = /_(\d+)/.exec(file) ?? [];
     const isLarge = !(Number(faces) < 60000);
     await compare(t, join(models, file), (what) => what === 'default' || (what === 'stl' && !isLarge));

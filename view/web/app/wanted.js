@@ -92,7 +92,7 @@ function refuse(name, why) {
 
 async function lengthOf(name, text, part) {
   if (text === '') return undefined;
-  const length = await prohull.length(text, part.mesh, {inMetres: kept('unit') !== ''});
+  const length = await prohull.length(text, part.mesh, {inMetres: part.mesh.inMetres});
   if (length === 0) refuse(name, `it must be greater than 0, not ${text}`);
   return length;
 }

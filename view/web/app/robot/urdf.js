@@ -3,7 +3,7 @@
 import {placeOf} from './places.js';
 import {UrdfError, childrenCalled, edited, parseXml} from './xml.js';
 
-export const READ = /\.(stl|obj|ply|off|glb)(\.gz)?$/i;
+export const READ = /\.(stl|obj|ply|off|glb|dae)(\.gz)?$/i;
 const PRIMITIVES = ['box', 'sphere', 'cylinder', 'capsule'];
 const NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
 const LONGEST = 100;  // characters of a name, as of the command
@@ -72,7 +72,6 @@ function linksOf(text, from) {
 }
 
 function fileOf(uri, tree) {
-  if (/\.dae$/i.test(uri)) return {why: 'COLLADA is not read here; the program prohull reads it'};
   return READ.test(uri) ? placeOf(uri, tree) : {why: 'files of this format are not read here'};
 }
 
