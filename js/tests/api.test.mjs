@@ -181,7 +181,7 @@ test('files', async () => {
   await refused(prohull.write(third, 'a.stl'), /float32Coordinates/);
   const zip = new Uint8Array([0x50, 0x4b, 3, 4]), xml = new TextEncoder().encode('<?xml version="1.0"?>');
   await refused(prohull.read(zip, 'a.zip'), /a.zip: a zip archive, which is not read here; take the file out of it/);
-  for (const [bytes, name] of [[zip, 'a.3mf'], [xml, 'a.dae']]) await refused(prohull.read(bytes, name), /only the program prohull reads/);
+  for (const [bytes, name] of [[zip, 'a.3mf'], [xml, 'a.fbx']]) await refused(prohull.read(bytes, name), /only the program prohull reads/);
   await refused(prohull.read(new TextEncoder().encode('ISO-10303-21;'), 'a.step'), /export it as STL/);
   await refused(prohull.read(xml, 'a.urdf'), /it is a robot and no mesh/);
   const two = [{...cube, name: 'a'}, {...third, name: 'b'}], text = new TextDecoder().decode(await prohull.writeSeveral(two, 'a.obj'));
