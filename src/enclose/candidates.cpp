@@ -122,16 +122,17 @@ bool Candidates::may_move_mesh() const {
 void Candidates::plan_moved_mesh() {
   steps_.push_back([this](const Ranking& ranking, Solids&) -> std::optional<Candidate> {
     constexpr double kLittleVoid = 0.05;
-    const bool is_of_mesh = ranking.is_as_asked() && ranking.best().hull.source == Source::Mesh;
+    const bool is_of_mesh = ranking.has_certified() && ranking.best().hull.target_reached &&  // it may meet itself
+                            ranking.best().hull.source == Source::Mesh;
     if (is_of_mesh ? std::abs(ranking.best_void()) <= kLittleVoid : request_.is_outer()) return std::nullopt;
     return moved(is_of_mesh ? ranking.best().hull.solid : 0);
   });
 }
 
-// Where the mesh's own hull leaves folds uncovered, as with many faces.
+// Where the mesh's own hull leaves folds uncovered, as with many faces, or meets itself around them.
 void Candidates::plan_unfolded_mesh() {
   steps_.push_back([this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
-    if (ranking.is_empty() || ranking.has_certified()) return std::nullopt;
+    if (ranking.is_empty() || (ranking.has_certified() && (bounds_.any() || ranking.is_clean()))) return std::nullopt;
     const auto id = solids.unfolded();
     return id ? std::optional(of(*id, solids)) : std::nullopt;
   });

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "construct/shape_guards.h"
@@ -61,6 +62,19 @@ LevelTrial moved_level(const ProgressiveHull& hull, const Making& making) {
   return {faces, hull.level(faces), 1};
 }
 
+struct Step {
+  double faces;  ///< of those asked for
+  unsigned rounds;
+  double stuck;  ///< with more, in Candidate::most_faces
+};
+
+constexpr Step kSteps[]{{1.5, 2, 4}, {1, kRoundsAtTheEnd, 1}};
+
+// A collapse places its vertex outside of faces that stand off already: what moves on the way keeps what follows near.
+// Of 100 hulls of 60 to 300 faces of robots' wraps, 99 have less void than with the two steps above, 0.79 times in the
+// mean, in 1.15 times the time. Four more steps, or two that begin with eight times the faces, were no better.
+constexpr Step kStepsOfWraps[]{{4, 8, 10}, {2, 8, 5}, {1.4, 8, 4}, {1, kRoundsAtTheEnd, 1}};
+
 }  // namespace
 
 EnclosingHull built_of_levels(const Making& making) {
@@ -81,22 +95,18 @@ EnclosingHull built_of_levels(const Making& making) {
   return hull;
 }
 
-// Moved before it has come down to its faces, too, a hull is up to 1 % smaller. One that is stuck with too many faces
-// to be better than another hull does not move any more. The mesh has its levels already: one of them comes first.
+// One that is stuck with too many faces to be better than another hull does not move any more. The mesh has its levels
+// already: one of them comes first.
 EnclosingHull built_in_steps(const Making& making) {
-  struct Step {
-    double faces;  ///< of those asked for
-    unsigned rounds;
-    double stuck;  ///< with more, in Candidate::most_faces
-  };
-  constexpr Step kSteps[]{{1.5, 2, 4}, {1, kRoundsAtTheEnd, 1}};
+  const bool is_of_mesh = making.solid().source == Source::Mesh;
+  const std::span<const Step> steps =
+      making.solid().source == Source::Wrap ? std::span<const Step>(kStepsOfWraps) : kSteps;
   const double target = double(making.candidate.target_faces);
   EnclosingHull hull;
-  hull.mesh = making.solid().source == Source::Mesh
-                  ? making.solids.levels(making.candidate.solid, making.candidate.seed)
-                        .hull.level(std::size_t(std::llround(kSteps[0].faces * target)))
-                  : making.solid().mesh;
-  for (const auto& [faces, rounds, stuck] : kSteps) {
+  hull.mesh = is_of_mesh ? making.solids.levels(making.candidate.solid, making.candidate.seed)
+                               .hull.level(std::size_t(std::llround(steps[0].faces * target)))
+                         : making.solid().mesh;
+  for (const auto& [faces, rounds, stuck] : steps) {
     if (!(signed_volume(hull.mesh) > 0)) break;  // an inner hull may vanish
     HullOptions options = making.hull_options();
     options.target_faces = std::size_t(std::llround(faces * target));

@@ -360,6 +360,11 @@ TEST(EnclosingHull, OfARoomOfPanelsIsSolidAndCoversItsDoors) {
   EXPECT_TRUE(doors.face_count() == 0 || verify_cover(doors, hull.mesh).encloses);
 }
 
+TEST(EnclosingHull, OfAWrapMovesOnItsWayDown) {
+  EXPECT_LT(only(hull_of(make_sample("bracket", 1000), 100, {.repair = Repair::Wrap})).void_ratio, 0.12)
+      << "0.15 if it moves near the end only";
+}
+
 TEST(EnclosingHull, OfAWrapMovesTowardsTheTriangles) {
   const TriangleMesh knot = make_sample("knot", effort<std::size_t>(2000, 600));
   const EnclosingHulls made = hull_of(knot, 300, {.repair = Repair::Wrap});
@@ -466,6 +471,16 @@ TEST(EnclosingHull, OfManyFacesReplacesOnlyWhatIsAroundAFold) {
   EXPECT_GT(solid.mesh.face_count(), mesh.face_count() - 40);
   EXPECT_LT(only(made).void_ratio, 0.1);
   EXPECT_EQ(finest_level(made, only(made)), FinestLevel::Repaired);
+}
+
+TEST(EnclosingHull, OfAFoldedMeshMovesTowardsItTooThoughItMeetsItself) {
+  TriangleMesh rod = folded_rock();
+  for (Vec3& p : rod.positions) p = {4 * p.x, 0.4 * p.y + 1.4 * p.x * p.x, 0.4 * p.z};
+  const EnclosingHull hull = only(hull_of(rod, 100, {}));
+  EXPECT_TRUE(hull.certified);
+  EXPECT_EQ(hull.source, Source::Mesh);
+  const EnclosingHull level = only(hull_of(rod, 100, {.levels = true}));
+  EXPECT_LT(hull.void_ratio, 0.85 * level.void_ratio);
 }
 
 TEST(EnclosingHull, MeasuresFromTheMeshNotFromWhatReplacesAFold) {
