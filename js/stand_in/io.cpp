@@ -2,7 +2,6 @@
 // readers of meshes ask for stands here.
 #include <fmt/format.h>
 
-#include "collada.h"
 #include "io/file.h"
 #include "io/file_content.h"
 #include "io/file_unit.h"
@@ -18,8 +17,6 @@ namespace {
 [[noreturn]] void refuse_file(const std::string& name) {
   throw InputError(Defect::CannotRead, fmt::format("{}: no file can be opened here, only what is in memory", name));
 }
-
-bool is_collada(const std::filesystem::path& name) { return lower_case_extension(without_gz(name)) == ".dae"; }
 
 }  // namespace
 
@@ -50,7 +47,7 @@ FileUnit unit_of_file(std::string_view content, const std::filesystem::path& nam
 ImportLimits import_limits(std::size_t) { return {}; }
 
 TriangleMesh imported_mesh(std::string_view content, const std::string& file, const ImportLimits&, const Progress&) {
-  if (is_collada(file)) return collada_mesh(content, file, decompression_limit(content.size()));
+  if (is_collada(file)) return read_collada(content, file, decompression_limit(content.size()));
   throw InputError(Defect::UnknownFormat,
                    fmt::format("{}: only the program prohull reads this format; convert it to PLY, OBJ, STL or GLB, "
                                "with Blender or MeshLab for example",

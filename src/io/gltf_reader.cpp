@@ -28,7 +28,6 @@ using Json = nlohmann::json;
 constexpr std::string_view kGlbMagic = "glTF";
 constexpr std::size_t kGlbHeader = 12, kChunkHeader = 8;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
-constexpr Place kNowhere{Place::Unit::None, 0};
 
 /// Of a normalized integer (3.11): f = max(c / 127, -1) and its like.
 double normalized(double value, NumberType type) {

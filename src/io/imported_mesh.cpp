@@ -14,6 +14,7 @@
 #include "io/file_content.h"
 #include "io/import_protocol.h"
 #include "io/mesh_builder.h"
+#include "io/mesh_readers.h"
 #include "io/utf8.h"
 #include "prohull/detail/extension.h"
 #include "prohull/detail/run_program.h"
@@ -23,7 +24,6 @@ namespace {
 
 constexpr std::string_view kProgram = "prohull-import";
 constexpr const char* kProgramVariable = "PROHULL_IMPORTER";
-constexpr Place kNowhere{Place::Unit::None, 0};
 constexpr std::string_view kConvert = "convert it to PLY, OBJ, STL or GLB, with Blender or MeshLab for example";
 
 std::filesystem::path folder_of_this_program() {
@@ -196,12 +196,16 @@ ImportLimits import_limits(std::size_t file_size) {
 
 TriangleMesh imported_mesh(std::string_view content, const std::string& file, const ImportLimits& limits,
                            const Progress& progress) {
+  const std::optional<std::string> utf8 = utf8_of_utf16(content);  // assimp 5.2.5 reads XML in UTF-8 only
+  if (is_collada(file)) try {
+      return read_collada(utf8 ? *utf8 : content, file, limits.output);
+    } catch (const InputError&) {  // assimp may read it
+    }
   const auto program = importer();
   if (!program) refuse_without_importer(file);
   const std::vector<std::string> arguments = {without_gz(file).string(),
                                               fmt::format("{}", (limits.time.count() + 1) / 2),
                                               fmt::format("{}", limits.memory), limits.alone ? kImportAlone : ""};
-  const std::optional<std::string> utf8 = utf8_of_utf16(content);  // assimp 5.2.5 reads XML in UTF-8 only
   ProgressMeter meter(progress, "read");
   const ProgramResult result = run_program(*program, arguments, utf8 ? *utf8 : content, {limits.time, limits.output},
                                            [&](double fraction) { meter.at(fraction); });

@@ -20,6 +20,11 @@ TriangleMesh read_msh(std::string_view content, const std::string& file, const R
 /// glTF or GLB; `file` is also where the files are that it names.
 TriangleMesh read_gltf(std::string_view content, const std::string& file, const ReadOptions& options);
 
+/// COLLADA with the bits that assimp 5.2 gives, in metres, and with `up_axis` ignored. Also refuses what takes more
+/// than `most` bytes.
+TriangleMesh read_collada(std::string_view content, const std::string& file, std::size_t most);
+bool is_collada(const std::filesystem::path& name);  ///< .dae, with or without .gz
+
 /// Whether files of that name, with or without .gz, are meshes that are read.
 bool is_mesh_name(const std::filesystem::path& path);
 

@@ -15,6 +15,7 @@ struct Place {
   Unit unit = Unit::Line;
   std::size_t number = 0;
 };
+constexpr Place kNowhere{Place::Unit::None, 0};
 
 /// Throws InputError "file: line 14: message", or "file: message" without a unit.
 [[noreturn]] void fail(std::string_view file, Place place, std::string_view message, Defect defect = Defect::Malformed);

@@ -1,5 +1,3 @@
-#include "collada.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,12 +13,13 @@
 
 #include "io/affine.h"
 #include "io/mesh_builder.h"
+#include "io/mesh_readers.h"
 #include "io/vertex_welder.h"
+#include "prohull/detail/extension.h"
 
 namespace prohull {
 namespace {
 
-constexpr Place kNowhere{Place::Unit::None, 0};
 constexpr std::string_view kBlanks = " \t\r\n";
 
 std::string_view trimmed(std::string_view text) {
@@ -544,7 +543,9 @@ class ColladaReader {
 
 }  // namespace
 
-TriangleMesh collada_mesh(std::string_view content, const std::string& file, std::size_t most) {
+bool is_collada(const std::filesystem::path& name) { return lower_case_extension(without_gz(name)) == ".dae"; }
+
+TriangleMesh read_collada(std::string_view content, const std::string& file, std::size_t most) {
   if (content.starts_with("\xFF\xFE") || content.starts_with("\xFE\xFF"))  // musl's iconv has 150 kB of tables
     fail(file, kNowhere, "it is in UTF-16; save it in UTF-8");
   return ColladaReader(content, file, most).read();
