@@ -89,17 +89,40 @@ void Candidates::plan_offset() {
   });
 }
 
+// Where a mesh does not cover its own folds, as where caps of openings cross its walls, sheets cover them, and all
+// collapses of both keep the bound. At 0.1 % of the diagonal, hulls of 7 robots' parts for which no wrap was fine
+// enough keep it with 1,248 to 11,180 faces after 0.5 to 16 s. At 0.3 % there are parts with 0.5 and with 1.5 times the
+// faces of the hull of a wrap. At 1/8 of the bound, sheets around a wrist closed a cavity.
+void Candidates::plan_sheets(bool is_instead_of_wraps) {
+  steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
+    constexpr double kNear = 0.03;  // of the bound; the rest is for collapses
+    if (ranking.keeps_bounds() && (is_instead_of_wraps || ranking.best().hull.source == Source::Mesh))
+      return std::nullopt;
+    if (has_few_faces(ranking) || !is_worth_the_mesh(solids)) return std::nullopt;
+    const auto id = solids.with_sheets(kNear * bounds_.max_distance);
+    if (!id) return std::nullopt;
+    EnclosingHull start;
+    start.mesh = solids[*id].mesh, start.solid = *id;
+    Candidate candidate = further(start, bounds_.max_distance);
+    candidate.recipe.approach = Approach::Clear;
+    return candidate;
+  });
+}
+
 void Candidates::plan_bounded_wraps() {
-  constexpr double kClose = 1.0 / 200;  // to the diagonal
+  constexpr double kClose = 1.0 / 200, kVeryClose = 1.0 / 500;  // to the diagonal
   const double max_distance = bounds_.max_distance;
   if (may_stay_within() && request_.options.repair != Repair::Wrap) plan_offset();
-  const bool is_close =
-      max_distance < kClose * request_.diagonal || kBoundedSpacing * max_distance < finest_loose_spacing(request_);
+  const bool is_small = max_distance < kClose * request_.diagonal;
+  const bool is_close = is_small || kBoundedSpacing * max_distance < finest_loose_spacing(request_);
+  const bool is_very_small = max_distance < kVeryClose * request_.diagonal;
+  if (may_stay_within() && is_very_small) plan_sheets(/*is_instead_of_wraps=*/true);
   const double finest = finest_close_spacing(request_);
   const bool is_hopeless = kReach * finest > kNearerByMoving * max_distance;
   const bool may_be_close = may_stay_within() && is_close;
   // Of 8 triangles, the close wrap is coarser than the loose one, and its hull nearer: by a third.
   if (may_be_close && (!is_hopeless || finest >= finest_loose_spacing(request_))) plan_close_wraps();
+  if (may_stay_within() && is_small && !is_very_small) plan_sheets(/*is_instead_of_wraps=*/false);
   if (!may_be_close || is_hopeless) plan_loose_wraps();
   const bool is_too_close = may_stay_within() && finest > kCloseSpacing * max_distance;
   if (is_too_close) plan_why_not_closer(finest, kCloseSpacing * max_distance);

@@ -41,6 +41,7 @@ class Candidates {
   void plan_wraps();
   void plan_other_wraps();
   void plan_clear_of_wraps();
+  void plan_sheets(bool is_instead_of_wraps);
   void plan_offset();
   void plan_bounded_wraps();
   void plan_close_wraps();

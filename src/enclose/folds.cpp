@@ -8,6 +8,9 @@
 #include <utility>
 
 #include "construct/lifting.h"
+#include "enclose/offset_surface.h"
+#include "geometry/float32.h"
+#include "prohull/convex_hull.h"
 #include "prohull/detail/progress_meter.h"
 #include "prohull/detail/text.h"
 #include "verify/known_solid.h"
@@ -98,6 +101,35 @@ std::optional<Unfolded> unfolded(const TriangleMesh& mesh, const HullOptions& ho
     for (const Offender& o : left) ++rings[index(o.face)];
   }
   return std::nullopt;
+}
+
+// Wherever a hull is built, it winds around no point less often than what it is built from: so it covers the triangles,
+// too. Where the mesh winds backwards, it takes more than one layer. Around needles there are slabs.
+std::optional<Unfolded> with_sheets(TriangleMesh mesh, const TriangleMesh& triangles, double distance,
+                                    const HullOptions& how) {
+  constexpr std::size_t kMostFaces = 2000, kMostSlabs = 1000;
+  constexpr int kMostLayers = 4;
+  const auto left_of = [&](const TriangleMesh& faces) {
+    std::vector<FaceId> outside;
+    for (const Offender& o : uncovered(faces, mesh, how.progress)) outside.push_back(o.face);
+    return some_faces(faces, outside);
+  };
+  TriangleMesh left = left_of(triangles);
+  const Folds folds{left.face_count(), left.face_count() > 0 ? left.triangle(FaceId{0}).a : Vec3{}};
+  for (int layer = 0; layer < kMostLayers && left.face_count() > 0; ++layer) {
+    if (left.face_count() > (layer == 0 ? kMostFaces : kMostSlabs)) return std::nullopt;
+    TriangleMesh around;
+    if (layer == 0)
+      around = sheets_around(left, distance);
+    else
+      for (const FaceId f : left.triangles.ids()) append(around, slab_around(some_faces(left, {f}), distance / 2));
+    if (how.float32_coordinates)
+      for (Vec3& p : around.positions) p = nearest_float32(p);
+    append(mesh, around);
+    left = left_of(left);
+  }
+  if (folds.faces == 0 || left.face_count() > 0) return std::nullopt;
+  return Unfolded{std::move(mesh), folds};
 }
 
 std::string describe(const Folds& folds) {

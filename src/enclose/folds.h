@@ -24,4 +24,9 @@ struct Unfolded {
 /// intersects itself in many places, or if nothing helps. Requires a closed 2-manifold that is oriented outwards.
 std::optional<Unfolded> unfolded(const TriangleMesh& mesh, const HullOptions& how);
 
+/// The mesh, and thin sheets around those triangles that it does not cover: no farther away than about `distance`. None
+/// if it covers all, if too many are left out, or if sheets do not help. The sheets cross the mesh, and each other.
+std::optional<Unfolded> with_sheets(TriangleMesh mesh, const TriangleMesh& triangles, double distance,
+                                    const HullOptions& how);
+
 }  // namespace prohull

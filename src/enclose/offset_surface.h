@@ -13,4 +13,8 @@ namespace prohull {
 /// the same direction, or if the faces around a vertex leave no room.
 std::optional<TriangleMesh> offset_surface(const TriangleMesh& mesh, double distance);
 
+/// The same of any triangles, as sheets that are cut where a surface turns by more than a right angle, where more than
+/// two faces meet, and where a vertex has no room. Nothing is around needles. Sheets may pass through each other.
+TriangleMesh sheets_around(const TriangleMesh& triangles, double distance);
+
 }  // namespace prohull

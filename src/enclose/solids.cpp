@@ -95,6 +95,21 @@ std::optional<SolidId> Solids::unfolded() {
   return *unfolded_;
 }
 
+std::optional<SolidId> Solids::with_sheets(double distance) {
+  if (const auto known = sheets_.find(distance); known != sheets_.end()) return known->second;
+  const Stopwatch watch;
+  std::optional<SolidId>& id = sheets_[distance];
+  auto made = prohull::with_sheets(entries_[0].solid.mesh, request_.to_cover(), distance,
+                                   request_.hull_options(request_.fewest_faces, request_.options.hull.seed));
+  if (made && inspect(made->mesh).is_closed_manifold())
+    id = add({.source = Source::Mesh,
+              .mesh = std::move(made->mesh),
+              .components = entries_[0].solid.components,
+              .folds = made->folds});
+  repair_seconds_ += watch.seconds();
+  return id;
+}
+
 std::span<const SolidId> Solids::wraps(std::size_t faces) const {
   const auto found = wraps_.find(faces);
   return found == wraps_.end() ? std::span<const SolidId>() : found->second;

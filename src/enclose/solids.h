@@ -36,6 +36,9 @@ class Solids {
   bool has_mesh() const { return !entries_.empty() && entries_[0].solid.source == Source::Mesh; }
   /// The mesh, with its folds covered (folds.h). None if that does not help.
   std::optional<SolidId> unfolded();
+  /// The mesh, with sheets around what it does not cover, as far from it as about `distance` (folds.h). None if that
+  /// does not help.
+  std::optional<SolidId> with_sheets(double distance);
   /// A slab around what is flat, if it is convex. None around other flat input, or if its padded volume is known to be
   /// `too_large` before it is made.
   std::optional<SolidId> convex_hull(std::optional<double> too_large);
@@ -94,6 +97,7 @@ class Solids {
   std::optional<std::optional<SolidId>> unfolded_;  ///< once it was asked for
   std::optional<SolidId> convex_hull_;
   std::map<double, std::optional<SolidId>> offsets_;   ///< by distance
+  std::map<double, std::optional<SolidId>> sheets_;    ///< by distance
   std::map<std::size_t, SolidId> polytopes_;           ///< by faces
   std::map<std::size_t, std::vector<SolidId>> wraps_;  ///< by faces
 };

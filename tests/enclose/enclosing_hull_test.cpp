@@ -679,6 +679,30 @@ TEST(EnclosingHull, OfASoupKeepsAVeryCloseBound) {
 }
 
 // A level has the same priority everywhere: where one place needs many faces, all of it has them.
+// The cap of the outer wall crosses the inner wall, which goes on below it with a cap of its own: the space between the
+// caps is inside out.
+TEST(EnclosingHull, OfTwoWallsWithOpeningsKeepsACloseBound) {
+  constexpr std::uint32_t kSides = 12;
+  TriangleMesh cup;
+  for (const auto& [radius, z] : {std::pair(1.0, 0.0), {1.0, 1.0}, {0.8, 1.0}, {0.8, -0.2}})
+    for (std::uint32_t i = 0; i < kSides; ++i) {
+      const double angle = 2 * std::numbers::pi * i / kSides;
+      cup.positions.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
+    }
+  for (std::uint32_t ring = 0; ring < 3 * kSides; ring += kSides)
+    for (std::uint32_t i = 0; i < kSides; ++i) {
+      const VertexId a{ring + i}, b{ring + (i + 1) % kSides}, c{ring + kSides + (i + 1) % kSides}, d{ring + kSides + i};
+      cup.triangles.push_back({a, b, c});
+      cup.triangles.push_back({a, c, d});
+    }
+  const EnclosingHulls made = hull_of(cup, 20, {.bounds = {.max_distance = 0.001 * bounding_box(cup).diagonal()}});
+  const EnclosingHull hull = only(made);
+  EXPECT_TRUE(hull.certified);
+  EXPECT_TRUE(hull.within_bounds);
+  EXPECT_LE(hull.mesh.face_count(), 204u);  // a wrap of a grid that is worth it for 72 faces had 2,252, and missed it
+  EXPECT_GT(made.solids[hull.solid].folds.faces, 0u);
+}
+
 TEST(EnclosingHull, HasFewerFacesWithinABoundThanALevel) {
   const TriangleMesh asteroid = make_sample("asteroid", 2000);
   const HullBounds bounds{.max_distance = 0.01 * bounding_box(asteroid).diagonal()};

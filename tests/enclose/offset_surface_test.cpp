@@ -58,5 +58,14 @@ TEST(OffsetSurface, IsNotOfFacesThatBranch) {
   EXPECT_FALSE(offset_surface(three, 0.01));
 }
 
+TEST(OffsetSurface, IsCutIntoSheetsWhereFacesBranchAndFoldBack) {
+  const TriangleMesh faces =
+      make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, -1}, {0.9, 0.9, 0.01}, {2, 0, 0}},
+           {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {2, 1, 5}, {5, 1, 6}, {5, 6, 0}});
+  const TriangleMesh around = sheets_around(faces, 0.01);
+  EXPECT_TRUE(inspect(around).is_closed_manifold());
+  EXPECT_TRUE(verify_cover(faces, around).encloses);
+}
+
 }  // namespace
 }  // namespace prohull
