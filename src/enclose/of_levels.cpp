@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "construct/shape_guards.h"
@@ -75,32 +76,10 @@ constexpr Step kSteps[]{{1.5, 2, 4}, {1, kRoundsAtTheEnd, 1}};
 // mean, in 1.15 times the time. Four more steps, or two that begin with eight times the faces, were no better.
 constexpr Step kStepsOfWraps[]{{4, 8, 10}, {2, 8, 5}, {1.4, 8, 4}, {1, kRoundsAtTheEnd, 1}};
 
-}  // namespace
-
-EnclosingHull built_of_levels(const Making& making) {
-  const HullResult& result = making.solids.levels(making.candidate.solid, making.candidate.seed);
-  std::optional<LevelTrial> moved;
-  if (making.recipe().moves) moved = moved_level(result.hull, making);
-  const std::size_t faces = moved ? moved->faces : faces_of_level(result.hull, making);
-  const TriangleMesh level = result.hull.level(faces);
-  EnclosingHull hull;
-  hull.mesh = moved ? std::move(moved->mesh) : TriangleMesh(level);
-  const bool is_coarsest = level.face_count() == result.hull.base_face_count();
-  hull.target_reached = making.bounds().any() && faces > making.candidate.target_faces &&  // which they ask for
-                        !(making.request.is_bound_to_mesh() && is_coarsest);
-  if (hull.mesh == level)
-    hull.levels = faces > result.hull.base_face_count() ? result.hull.with_base(faces) : result.hull;
-  hull.refusals = result.refusals, hull.blocked = result.blocked;
-  if (is_coarsest) hull.relaxed_guards = result.relaxed_guards;
-  return hull;
-}
-
 // One that is stuck with too many faces to be better than another hull does not move any more. The mesh has its levels
 // already: one of them comes first.
-EnclosingHull built_in_steps(const Making& making) {
+EnclosingHull in_steps(std::span<const Step> steps, const Making& making) {
   const bool is_of_mesh = making.solid().source == Source::Mesh;
-  const std::span<const Step> steps =
-      making.solid().source == Source::Wrap ? std::span<const Step>(kStepsOfWraps) : kSteps;
   const double target = double(making.candidate.target_faces);
   EnclosingHull hull;
   hull.mesh = is_of_mesh ? making.solids.levels(making.candidate.solid, making.candidate.seed)
@@ -122,6 +101,41 @@ EnclosingHull built_in_steps(const Making& making) {
     if (is_stuck) break;
   }
   return hull;
+}
+
+}  // namespace
+
+EnclosingHull built_of_levels(const Making& making) {
+  const HullResult& result = making.solids.levels(making.candidate.solid, making.candidate.seed);
+  std::optional<LevelTrial> moved;
+  if (making.recipe().moves) moved = moved_level(result.hull, making);
+  const std::size_t faces = moved ? moved->faces : faces_of_level(result.hull, making);
+  const TriangleMesh level = result.hull.level(faces);
+  EnclosingHull hull;
+  hull.mesh = moved ? std::move(moved->mesh) : TriangleMesh(level);
+  const bool is_coarsest = level.face_count() == result.hull.base_face_count();
+  hull.target_reached = making.bounds().any() && faces > making.candidate.target_faces &&  // which they ask for
+                        !(making.request.is_bound_to_mesh() && is_coarsest);
+  if (hull.mesh == level)
+    hull.levels = faces > result.hull.base_face_count() ? result.hull.with_base(faces) : result.hull;
+  hull.refusals = result.refusals, hull.blocked = result.blocked;
+  if (is_coarsest) hull.relaxed_guards = result.relaxed_guards;
+  return hull;
+}
+
+// What has moved early may be stuck, or swell with weaker guards, where a hull that moves late does not: of a bracket
+// at 60 faces, every second one.
+EnclosingHull built_in_steps(const Making& making) {
+  if (making.solid().source != Source::Wrap) return in_steps(kSteps, making);
+  EnclosingHull early = in_steps(kStepsOfWraps, making);
+  if (early.target_reached && early.relaxed_guards == 0) return early;
+  EnclosingHull late = in_steps(kSteps, making);
+  const auto rank = [&](const EnclosingHull& hull) {
+    const double volume = signed_volume(hull.mesh);
+    return std::tuple(std::max(hull.mesh.face_count(), making.candidate.target_faces),
+                      making.request.is_outer() ? volume : -volume);
+  };
+  return rank(late) < rank(early) ? late : early;
 }
 
 }  // namespace prohull
