@@ -234,10 +234,12 @@ def test_a_file_says_that_its_finest_level_is_a_wrap(part_of_two, tmp_path):
     assert prohull.verify(tmp_path / "wrap.phull", part_of_two)
 
 
-def test_few_faces_make_no_spikes(pony):
+@pytest.mark.parametrize("tight", [False, True])
+@pytest.mark.parametrize("faces", [60, 100])
+def test_few_faces_make_no_spikes(pony, faces, tight):
     low, high = pony.vertices.min(axis=0), pony.vertices.max(axis=0)
     reach = 0.02 * np.linalg.norm(high - low)
-    hull = prohull.build(pony, 60, max_overhang=0.02, relax_guards=False)
+    hull = prohull.build(pony, faces, max_overhang=0.02, relax_guards=False, tight=tight)
     assert hull.certified and (hull.vertices >= low - reach).all() and (hull.vertices <= high + reach).all()
 
 

@@ -124,9 +124,9 @@ EnclosingHull built_of_levels(const Making& making) {
 }
 
 // What has moved early may be stuck, or swell with weaker guards, where a hull that moves late does not: of a bracket
-// at 60 faces, every second one.
+// at 60 faces, every second one. With a padding, early ones have 0.96 times the void in the mean, but up to 1.5 times.
 EnclosingHull built_in_steps(const Making& making) {
-  if (making.solid().source != Source::Wrap) return in_steps(kSteps, making);
+  if (making.solid().source != Source::Wrap || making.request.is_padded()) return in_steps(kSteps, making);
   EnclosingHull early = in_steps(kStepsOfWraps, making);
   if (early.target_reached && early.relaxed_guards == 0) return early;
   EnclosingHull late = in_steps(kSteps, making);

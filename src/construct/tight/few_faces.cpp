@@ -53,10 +53,8 @@ std::size_t intersecting_pairs(const TriangleMesh& mesh) {
 
 /// Where vertices may be: not farther outside of the original than the guards allow, or than the hull is.
 Box allowed_box(const TriangleMesh& hull, const Original& original, const ShapeGuards& guards) {
-  const double overhang = guards.max_overhang * original.bounds().diagonal();
-  Box box = bounding_box(hull);
-  box.extend(original.bounds().min - Vec3{overhang, overhang, overhang});
-  box.extend(original.bounds().max + Vec3{overhang, overhang, overhang});
+  Box box = original.allowed(guards.max_overhang);
+  box.extend(bounding_box(hull));
   return box;
 }
 

@@ -1,6 +1,7 @@
 #include "construct/tight/original.h"
 
 #include <oneapi/tbb/parallel_invoke.h>
+#include <cmath>
 
 #include <algorithm>
 #include <utility>
@@ -140,6 +141,13 @@ bool Original::lies_outside_of(const Tetrahedron& removed) const {
   bool met = false;
   sieve_.visit(sieve_.around(removed, 0), [&](FaceId f) { return !(met = is_in_the_way(f, removed)); });
   return !met && is_outside_inside_of(removed);
+}
+
+Box Original::allowed(double max_overhang) const {
+  const double diagonal = std::isfinite(max_overhang) ? bounds_.diagonal() : 1;
+  const double reach = max_overhang * diagonal + clearance_;
+  const Vec3 all{reach, reach, reach};
+  return {bounds_.min - all, bounds_.max + all};
 }
 
 }  // namespace prohull

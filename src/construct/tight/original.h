@@ -23,6 +23,9 @@ class Original {
 
   const TriangleMesh& mesh() const { return sieve_.mesh(); }
   const Box& bounds() const { return bounds_; }
+  /// What vertices stay in that hang over the original, or what the padding adds to it, by so much at most, relative to
+  /// its diagonal.
+  Box allowed(double max_overhang) const;
   double clearance() const { return clearance_; }  ///< 0: faces may touch
 
   /// Whether the hull may give up the tetrahedron. Exact; false where that is not certain.

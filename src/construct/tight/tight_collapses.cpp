@@ -34,7 +34,10 @@ struct EdgeState {
 class CollapsePlacer {
  public:
   CollapsePlacer(const HalfEdgeMesh& mesh, const Original& original, const HullOptions& options)
-      : mesh_(mesh), options_(options), placement_(original, options.float32_coordinates) {}
+      : mesh_(mesh),
+        options_(options),
+        allowed_(original.allowed(options.guards.max_overhang)),
+        placement_(original, options.float32_coordinates) {}
 
   std::optional<Placement> place_outside_of_star(EdgeId e) {
     gather_star(mesh_, e, star_);
@@ -68,8 +71,11 @@ class CollapsePlacer {
   /// After start_from.
   template <class IsFree>
   void place(const Placement& outside, EdgeState& state, IsFree&& is_free) {
-    const auto to = place_of(
-        outside, [&](const Vec3& p) { return !refused_shape(star_, star_.to_local(p), options_) && is_free(p); });
+    Box allowed = allowed_;
+    for (const VertexId v : {star_.o, star_.d}) allowed.extend(mesh_.position(v));
+    const auto to = place_of(outside, [&](const Vec3& p) {
+      return allowed.contains(p) && !refused_shape(star_, star_.to_local(p), options_) && is_free(p);
+    });
     state.found = placement_.found();
     state.is_refused = !to;
     if (!to) return;
@@ -104,6 +110,7 @@ class CollapsePlacer {
 
   const HalfEdgeMesh& mesh_;
   const HullOptions& options_;
+  const Box allowed_;  ///< all vertices that do not hang over by more already
   TightPlacement placement_;
   Star star_;
   std::vector<Vec3> known_;

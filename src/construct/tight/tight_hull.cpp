@@ -114,9 +114,10 @@ class TightBuild {
         return;
       }
     }
-    step_.guards.max_overhang =
+    HullOptions left = step_;
+    left.guards.max_overhang =
         overhang_left(bounding_box(tight_.mesh), bounding_box(mesh_), options_.guards.max_overhang);
-    HullResult result = build_hull(tight_.mesh, step_);
+    HullResult result = build_hull(tight_.mesh, left);
     tight_.refusals += result.refusals;
     tight_.blocked = result.blocked;
     tight_.stopped = result.stopped;

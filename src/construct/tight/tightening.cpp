@@ -35,7 +35,10 @@ constexpr std::size_t kLooksPerVertex = 5000, kLooksPerFace = 100;
 class Placer {
  public:
   Placer(const HalfEdgeMesh& mesh, const Original& original, const MoveOptions& options)
-      : mesh_(mesh), options_(options), placement_(original, options.float32_coordinates) {}
+      : mesh_(mesh),
+        options_(options),
+        allowed_(original.allowed(options.guards.max_overhang)),
+        placement_(original, options.float32_coordinates) {}
 
   void place(Move& move, const Contacts& contacts, auto&& is_accepted) {
     link_.clear();
@@ -43,7 +46,10 @@ class Placer {
     placement_.set(mesh_.position(move.vertex), mesh_, link_);
     contacts.gather(move.vertex, link_, known_);
     placement_.know(known_);
-    move.to = placement_.first([&](const Vec3& to) { return has_good_shape(to) && is_accepted(to); });
+    Box allowed = allowed_;
+    allowed.extend(mesh_.position(move.vertex));
+    move.to =
+        placement_.first([&](const Vec3& to) { return allowed.contains(to) && has_good_shape(to) && is_accepted(to); });
     move.found = placement_.found();
     move.looks += placement_.looks();
   }
@@ -54,6 +60,7 @@ class Placer {
 
   const HalfEdgeMesh& mesh_;
   const MoveOptions& options_;
+  const Box allowed_;  ///< all vertices that do not hang over by more already
   TightPlacement placement_;
   std::vector<VertexId> link_;
   std::vector<Vec3> known_;
