@@ -84,10 +84,12 @@ Decision read_all(const PathOptions& options, const RobotFile& file) {
   Decision decision{
       .file = file, .world = read_world(options), .disabled = {}, .made = {}, .pairs = {}, .left_out = {}};
   decision.made = path_bodies(file.robot, options.geometry, decision.world, std::ref(line));
-  if (!options.srdf.empty())
-    decision.disabled = disabled_pairs(file.robot, read_bytes(options.srdf), input_name(options.srdf));
+  Srdf srdf;
+  if (!options.srdf.empty()) srdf = read_srdf(file.robot, read_bytes(options.srdf), input_name(options.srdf));
+  decision.disabled = srdf.pairs();
   decision.pairs =
       pairs_on_path(file.robot, decision.made.bodies, decision.disabled, ignored_names(options, decision.made.bodies));
+  decision.made.notes.insert(decision.made.notes.end(), srdf.notes.begin(), srdf.notes.end());
   decision.left_out = without(pairs_on_path(file.robot, decision.made.bodies), decision.pairs);
   if (decision.pairs.empty()) refuse("there is no pair of bodies that could meet: all are adjacent, or ignored");
   for (const path& rows : options.paths)
@@ -235,13 +237,8 @@ nlohmann::json facts_of_path(const Decision& decision, std::size_t p) {
                       {"free_until", path.time_at(proof.free_until())},
                       {"least_distance", proof.curve.empty() ? nlohmann::json() : nlohmann::json(least_of(proof))},
                       {"cells", proof.cells()},
-                      {"beyond_limits", nullptr},
+                      {"beyond_limits", beyond_facts(decision.file.robot, path)},
                       {"pairs", nlohmann::json::array()}};
-  if (const auto beyond = first_beyond_limits(decision.file.robot, path))
-    json["beyond_limits"] = {{"row", beyond->row()},
-                             {"time", path.time_at(beyond->place)},
-                             {"joint", decision.file.robot.joints[beyond->joint].name},
-                             {"position", beyond->position}};
   for (const PathPairProof& pair : proof.pairs)
     if (pair.verdict != PathVerdict::Free) json["pairs"].push_back(facts_of_pair(decision, path, pair));
   return json;

@@ -10,6 +10,7 @@
 #include "command.h"
 #include "prohull/error.h"
 #include "robot/hulls/cache.h"
+#include "robot/report/report_facts.h"
 
 namespace prohull::cli {
 namespace {
@@ -29,11 +30,13 @@ bool stays_within(const path& folder, const path& name) {
   return !error && std::ranges::mismatch(root, place).in1 == root.end();
 }
 
-/// "run" of a report, if it is one that commit() may have written to this folder; otherwise null.
-nlohmann::json run_of(const path& folder) {
+/// The report, if it is one that commit() may have written to this folder; otherwise null.
+nlohmann::json earlier_report(const path& folder) {
   std::ifstream in(folder / kReport);
   const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
-  if (!json.is_object() || !json.contains("run") || !json["run"].is_object()) return {};
+  if (!json.is_object() || !json.contains("run") || !json["run"].is_object() || !json.contains("robot") ||
+      !json["robot"].is_string())
+    return {};
   const nlohmann::json& run = json["run"];
   const auto is_text = [](const nlohmann::json& value) { return value.is_string(); };
   const bool is_ours =
@@ -41,7 +44,7 @@ nlohmann::json run_of(const path& folder) {
       (run["exit_code"] == kDone || run["exit_code"] == kAnswerIsNo) && run.contains("files") &&
       run["files"].is_object() && std::ranges::all_of(run["files"], is_text) &&
       std::ranges::all_of(run["files"].items(), [&](const auto& file) { return stays_within(folder, file.key()); });
-  return is_ours ? run : nlohmann::json();
+  return is_ours ? json : nlohmann::json();
 }
 
 void require_free(const path& folder) {
@@ -60,13 +63,19 @@ void require_free(const path& folder) {
 
 }  // namespace
 
-RobotFolder::RobotFolder(const path& folder)
-    : folder_(folder.has_filename() ? folder : folder.parent_path()),  // without a slash at the end
-      earlier_(run_of(folder_)) {
-  if (earlier_.is_null()) {
+RobotFolder::RobotFolder(const path& folder, const std::string& robot_name)
+    : folder_(folder.has_filename() ? folder : folder.parent_path()) {  // without a slash at the end
+  const nlohmann::json report = earlier_report(folder_);
+  if (report.is_null()) {
     require_free(folder_);
     return;
   }
+  if (const std::string other = report["robot"]; other != robot::clean_text(robot_name))
+    refuse(
+        fmt::format("{}: an earlier run has written the robot '{}' to it, whose files would be removed; choose another "
+                    "folder, or remove this one",
+                    folder_.string(), other));
+  earlier_ = report["run"];
   for (const auto& [name, hash] : earlier_["files"].items()) old_[name] = hash;
 }
 

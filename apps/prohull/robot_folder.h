@@ -12,12 +12,13 @@
 namespace prohull::cli {
 
 /// The folder that `prohull urdf` writes a robot to. Its report.json tells what a run has made, and from what: only
-/// such a folder, or one that is empty or not there, is written to.
+/// such a folder of the same robot, or one that is empty or not there, is written to.
 class RobotFolder {
  public:
-  /// Throws InputError(InvalidOption) for a folder with other files, and for what is no folder. A report.json that
-  /// names a file outside of the folder is no report of an earlier run.
-  explicit RobotFolder(const std::filesystem::path& folder);
+  /// For the robot of this name. Throws InputError(InvalidOption) for a folder with other files, or with the run of a
+  /// robot of another name, and for what is no folder. A report.json that names a file outside of the folder is no
+  /// report of an earlier run.
+  RobotFolder(const std::filesystem::path& folder, const std::string& robot_name);
 
   const std::filesystem::path& get() const { return folder_; }
 

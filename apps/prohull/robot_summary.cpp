@@ -338,6 +338,15 @@ std::string beyond_text(const Robot& robot, const JointPath& path) {
                      beyond->position, joint.lower, joint.upper, digits);
 }
 
+nlohmann::json beyond_facts(const Robot& robot, const JointPath& path) {
+  const auto beyond = first_beyond_limits(robot, path);
+  if (!beyond) return nullptr;
+  return {{"row", beyond->row()},
+          {"time", path.time_at(beyond->place)},
+          {"joint", robot.joints[beyond->joint].name},
+          {"position", beyond->position}};
+}
+
 void say_robot(const RobotFile& file) {
   const Robot& robot = file.robot;
   say("{}: {}, {}, {}\n", file.path.string(), robot.name, counted(robot.links.size(), "link"),

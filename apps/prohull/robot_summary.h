@@ -24,6 +24,9 @@ void say_robot(const robot::RobotFile& file);
 /// Where the path leaves the limits of a joint; empty if it does not.
 std::string beyond_text(const robot::Robot& robot, const robot::JointPath& path);
 
+/// The same as JSON: null if it does not leave them.
+nlohmann::json beyond_facts(const robot::Robot& robot, const robot::JointPath& path);
+
 /// What a run would do with each link. Returns whether all meshes that it needs are there.
 bool say_plan(const robot::RobotFile& file, const robot::LinkHullOptions& options);
 

@@ -45,8 +45,9 @@ struct SweepRunOptions {
 struct SweptZone {
   std::vector<LinkSweep> sweeps;  ///< of a mesh one, without a name
   std::optional<EnclosingHull> hull;
-  Verdict verdict;       ///< of all together, as the file holds it
-  nlohmann::json input;  ///< facts of what was read
+  Verdict verdict;                         ///< of all together, as the file holds it
+  nlohmann::json input;                    ///< facts of what was read
+  nlohmann::json beyond_limits = nullptr;  ///< of the path of a robot
   double read_seconds = 0, seconds = 0;
 
   std::vector<TriangleMesh> pieces() const {
@@ -129,6 +130,7 @@ std::vector<LinkSweep> sweeps_of_robot(const SweepRunOptions& options, SweepOpti
   std::vector<LinkSweep> sweeps = path ? sweep_links(file.robot, *path, links, options.geometry, how)
                                        : sweep_workspace(file.robot, links, options.geometry, how);
   if (sweeps.empty()) throw InputError(Defect::EmptyMesh, fmt::format("{}: no link has a shape", options.in.string()));
+  if (path) zone.beyond_limits = beyond_facts(file.robot, *path);
   say_robot(file);
   say("{}", frame_text(file, "the zone"));
   if (const std::string beyond = path ? beyond_text(file.robot, *path) : ""; !beyond.empty()) say("  {}\n", beyond);
@@ -222,6 +224,17 @@ nlohmann::json sources_of(const SweepRunOptions& options, const SweptZone& zone)
             {"angle_degrees", options.degrees ? nlohmann::json(*options.degrees) : nlohmann::json()}}}};
 }
 
+/// The volume of pieces is estimated of a mesh only: pieces of a robot have none of these keys.
+nlohmann::json volume_facts(const SweepRunOptions& options, const SweptZone& zone) {
+  if (zone.hull)
+    return {{"volume", volume_of(*zone.hull)},
+            {"volume_error", nullptr},
+            {"volume_is_estimated", std::isnan(zone.hull->verdict.hull_volume)}};
+  if (is_robot_file(options.in)) return nlohmann::json::object();
+  const Sweep& made = zone.sweeps[0].sweep;
+  return {{"volume", made.volume}, {"volume_error", made.volume_error}, {"volume_is_estimated", true}};
+}
+
 nlohmann::json report_of(const SweepRunOptions& options, const SweptZone& zone) {
   nlohmann::json sweeps = nlohmann::json::array();
   for (const LinkSweep& link : zone.sweeps)
@@ -233,19 +246,16 @@ nlohmann::json report_of(const SweepRunOptions& options, const SweptZone& zone) 
                       {"verdict", facts(link.sweep.verdict)},
                       {"fills_cavities", link.sweep.fills_cavities},
                       {"notes", link.sweep.notes}});
-  const bool has_volume = zone.hull || !is_robot_file(options.in);
-  const double volume = zone.hull ? volume_of(*zone.hull) : zone.sweeps[0].sweep.volume;
   nlohmann::json report = sources_of(options, zone);
-  report.update(nlohmann::json{
-      {"path", options.out.string()},
-      {"pieces", zone.pieces().size()},
-      {"hull_faces", zone.hull ? nlohmann::json(zone.hull->mesh.face_count()) : nlohmann::json()},
-      {"verdict", facts(zone.verdict)},
-      {"volume", has_volume ? nlohmann::json(volume) : nlohmann::json()},
-      {"volume_error", has_volume && !zone.hull ? nlohmann::json(zone.sweeps[0].sweep.volume_error) : nlohmann::json()},
-      {"volume_is_estimated", !zone.hull || std::isnan(zone.hull->verdict.hull_volume)},
-      {"sweeps", sweeps},
-      {"seconds", {{"read", zone.read_seconds}, {"sweep", zone.seconds}}}});
+  report.update(
+      nlohmann::json{{"path", options.out.string()},
+                     {"pieces", zone.pieces().size()},
+                     {"hull_faces", zone.hull ? nlohmann::json(zone.hull->mesh.face_count()) : nlohmann::json()},
+                     {"beyond_limits", zone.beyond_limits},
+                     {"verdict", facts(zone.verdict)},
+                     {"sweeps", sweeps},
+                     {"seconds", {{"read", zone.read_seconds}, {"sweep", zone.seconds}}}});
+  report.update(volume_facts(options, zone));
   return report;
 }
 

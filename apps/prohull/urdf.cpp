@@ -65,15 +65,16 @@ int run_check(const UrdfOptions& options, const RobotFile& file) {
   const Stopwatch watch;
   const double allow = length_of(options.allow, "--allow");
   check_files({options.in, options.srdf}, {options.report, options.junit, options.html});
-  std::vector<DisabledRow> rows;
-  if (!options.srdf.empty()) rows = disabled_rows(file.robot, read_bytes(options.srdf), input_name(options.srdf));
+  Srdf srdf;
+  if (!options.srdf.empty()) srdf = read_srdf(file.robot, read_bytes(options.srdf), input_name(options.srdf));
   ReportInput facts{.file = file, .hulls = {}, .shipped = {}, .motion = {}, .allow = allow, .version = PROHULL_VERSION};
+  facts.srdf_notes = srdf.notes;
   {
     ProgressLine line;
     facts.shipped = check_links(file.robot, {.threads = options.threads, .progress = std::ref(line)});
     ProofOptions proof = options.proof;
     proof.progress = std::ref(line);
-    facts.disabled = check_disabled_pairs(file.robot, rows, proof);
+    facts.disabled = check_disabled_pairs(file.robot, srdf.rows, proof);
   }
   facts.seconds = watch.seconds();
   sign(facts, {options.srdf});
@@ -86,6 +87,7 @@ int run_check(const UrdfOptions& options, const RobotFile& file) {
   }
   outputs.commit();
   say_check(file, facts.shipped, allow);
+  for (const std::string& note : srdf.notes) say("  {}\n", note);
   if (!options.srdf.empty()) say_disabled(file.robot, input_name(options.srdf), facts.disabled);
   const bool all = std::ranges::all_of(facts.shipped, [&](const LinkCheck& check) { return passes(check, allow); }) &&
                    std::ranges::none_of(facts.disabled, &DisabledCheck::is_refuted);
@@ -291,7 +293,7 @@ int run_build(const UrdfOptions& options, const RobotFile& file) {
     refuse("--sampled-pairs needs --configurations greater than 0");
   if (options.out.empty())
     refuse("say by -o which folder the robot goes to; or use --check, --dry-run or --write-budgets");
-  RobotFolder folder(options.out);
+  RobotFolder folder(options.out, file.robot.name);
   const WriteOptions how = write_options(options);
   check_options(file, how);
   if (options.certificate) check_certified_format(how.format);

@@ -40,9 +40,10 @@ std::shared_ptr<PathChecker> checker_of(const std::shared_ptr<RobotFile>& file,
     const Geometry which = geometry == "visual" ? Geometry::Visual : Geometry::Collision;
     auto checker =
         std::make_shared<PathChecker>(PathChecker{file, path_bodies(file->robot, which, meshes, watch.progress()), {}});
-    std::vector<LinkPair> disabled;
-    if (!srdf_name.empty()) disabled = disabled_pairs(file->robot, srdf, srdf_name);
-    checker->pairs = pairs_on_path(file->robot, checker->made.bodies, disabled, ignored);
+    Srdf read;
+    if (!srdf_name.empty()) read = read_srdf(file->robot, srdf, srdf_name);
+    checker->made.notes.insert(checker->made.notes.end(), read.notes.begin(), read.notes.end());
+    checker->pairs = pairs_on_path(file->robot, checker->made.bodies, read.pairs(), ignored);
     return checker;
   });
 }
@@ -65,6 +66,10 @@ py::dict facts_of(const PathChecker& checker, const JointPath& path, const PathP
 py::object facts_of(const Robot& robot, const std::optional<BeyondLimits>& beyond) {
   if (!beyond) return py::none();
   return py::make_tuple(beyond->row(), robot.joints[beyond->joint].name, beyond->position);
+}
+
+py::object beyond_limits(const RobotFile& file, PathRows rows) {
+  return facts_of(file.robot, first_beyond_limits(file.robot, JointPath(file.robot, std::move(rows))));
 }
 
 py::dict facts_of(const PathChecker& checker, const JointPath& path, const PathProof& proof) {
@@ -111,6 +116,7 @@ void bind_paths(py::module_& module) {
         rows.file = "path";
         return rows;
       }));
+  module.def("beyond_limits", &beyond_limits);
   py::class_<PathChecker, std::shared_ptr<PathChecker>>(module, "PathChecker")
       .def(py::init(&checker_of))
       .def_property_readonly("notes", [](const PathChecker& checker) { return checker.made.notes; })

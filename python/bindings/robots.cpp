@@ -240,18 +240,20 @@ py::object facts_of(const Robot& robot, const MotionPair& pair) {
   return facts_of(robot, *pair.proof) + py::make_tuple(pair.visual_meets_at_witness);
 }
 
-/// (link1, link2, reason, line, whether it is refuted, what is proven of the collision geometry, of the visual one).
-py::list disabled_pairs_of(const RobotFile& file, const std::string& srdf, const std::string& name, std::size_t cells,
-                           unsigned threads, const py::object& progress) {
+/// Notes, and (link1, link2, reason, line, whether it is refuted, what is proven of the collision geometry, of the
+/// visual one) of each row.
+py::tuple disabled_pairs_of(const RobotFile& file, const std::string& srdf, const std::string& name, std::size_t cells,
+                            unsigned threads, const py::object& progress) {
+  const Srdf read = read_srdf(file.robot, srdf, name);
   const std::vector<DisabledCheck> checks = watched(progress, [&](Watch& watch) {
-    return check_disabled_pairs(file.robot, disabled_rows(file.robot, srdf, name),
+    return check_disabled_pairs(file.robot, read.rows,
                                 {.cells = cells, .threads = threads, .progress = watch.progress()});
   });
   py::list rows;
   for (const DisabledCheck& check : checks)
     rows.append(py::make_tuple(check.row.link1, check.row.link2, check.row.reason, check.row.line, check.is_refuted(),
                                facts_of(file.robot, check.collision), facts_of(file.robot, check.visual)));
-  return rows;
+  return py::make_tuple(read.notes, rows);
 }
 
 py::tuple motion_of(const RobotHulls& hulls, std::size_t configurations, std::uint64_t seed, bool sampled_pairs,

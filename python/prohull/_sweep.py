@@ -15,6 +15,7 @@ from ._collide import matrices
 from ._covers import CoverShown, save_pieces
 from ._files import bytes_of, distance_of, mesh_of, naming
 from ._meshes import Mesh
+from ._paths import BeyondLimits
 from ._prohull import InputError
 from ._types import Axis, Gap, MeshLike, Path, Progress
 from ._verify import Verdict, verdict_of
@@ -34,6 +35,7 @@ class Sweep(CoverShown):
     notes: list[str]
     volume: float = math.nan  #: of the union, in cubic units: an estimate; nan of links
     volume_error: float = math.nan  #: standard error of the estimate; 0 of a single piece, nan of links
+    beyond_limits: Optional[BeyondLimits] = None  #: of Robot.sweep(): the first position of the path outside of the limits of its joint, if there is one
 
     @property
     def mesh(self) -> Mesh:

@@ -10,6 +10,7 @@ radians. What is wrong with a file is raised as InputError, with the file and th
 
 import os
 import pathlib
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Literal, NamedTuple, Optional, Union, get_args
 
@@ -429,12 +430,15 @@ class Robot(Shown):
 
         prove: the largest number of cells of the joints' positions for each pair that no joint connects.
 
-        Raises InputError for a file that is no SRDF; mesh files that are not found are told in `why`.
+        Raises InputError for a file that is no SRDF, or the rows of which name no two links of this robot. Warns where
+        it has the name of another robot. Mesh files that are not found are told in `why`.
 
             false = [pair for pair in robot.check_disabled("arm.srdf") if pair.refuted]
         """
-        rows = self._core.disabled_pairs(bytes_of(srdf), os.fspath(srdf), _arrays.count("prove", prove),
-                                         _arrays.count("threads", threads), progress)
+        notes, rows = self._core.disabled_pairs(bytes_of(srdf), os.fspath(srdf), _arrays.count("prove", prove),
+                                                _arrays.count("threads", threads), progress)
+        for note in notes:
+            warnings.warn(note, stacklevel=2)
         return [DisabledPair._make([*row, DisabledFinding(*collision), DisabledFinding(*visual)])
                 for *row, collision, visual in rows]
 
@@ -490,7 +494,8 @@ class Robot(Shown):
         made = _prohull.sweep_robot(
             self._core, rows, self._numbers_of(links), geometry == "visual", progress,
             sweep_keywords(pieces, max_distance, _arrays.not_negative, float32_coordinates, threads))
-        return {name: sweep_of(facts) for name, facts in made}
+        beyond = _prohull.beyond_limits(self._core, rows)
+        return {name: sweep_of({**facts, "beyond_limits": beyond and BeyondLimits(*beyond)}) for name, facts in made}
 
     def sweep_workspace(self, *, links: Optional[Sequence[str]] = None, geometry: Geometry = "collision",
                         pieces: int = 16, max_distance: Optional[float] = None, float32_coordinates: bool = False,

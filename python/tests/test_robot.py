@@ -338,6 +338,13 @@ def test_rows_of_an_srdf_are_decided(slide, tmp_path):
     assert [row.refuted for row in found] == [True, False, False, False]
     assert [row.collision.verdict for row in found] == ["meets", "meets", "adjacent", "unknown"]
     assert found[0].collision.positions["slide"] <= 0 and found[0].visual.verdict == "no-geometry"
+    (tmp_path / "slide.srdf").write_text("<robot name='glide'><disable_collisions link1='base' link2='cart'/></robot>")
+    with pytest.warns(UserWarning, match="slide.srdf: it is of the robot 'glide', not of 'slide'"):
+        assert len(slide.check_disabled(tmp_path / "slide.srdf")) == 1
+    assert "not of 'slide'" in slide.path_checker(srdf=tmp_path / "slide.srdf").notes[-1]
+    for check in (slide.check_disabled, lambda srdf: slide.path_checker(srdf=srdf)):
+        with pytest.raises(prohull.InputError, match="slide.urdf: line 1: it has no element of an SRDF file"):
+            check(slide.path)
     (tmp_path / "slide.srdf").write_bytes(b"<robot name='\xff'/>")
     with pytest.raises(prohull.InputError, match="slide.srdf: line 1: no XML"):
         slide.check_disabled(tmp_path / "slide.srdf")
@@ -385,6 +392,8 @@ def test_what_is_wrong_with_a_path_is_told(slide, tmp_path):
 def test_positions_of_links_are_enclosed(robot):
     passed = robot.sweep([[0], [1]], ["turn"], links=["tool"])
     assert list(passed) == ["tool"] and passed["tool"].verdict.encloses_solid
+    assert passed["tool"].beyond_limits is None
+    assert robot.sweep([[0], [9]], ["turn"], links=["tool"])["tool"].beyond_limits == (1, "turn", 9)
     ever = robot.sweep_workspace(links=["tool"], threads=1)
     assert list(ever) == ["base"] and ever["base"].verdict.distance_bound < 0.02
     ball = prohull.sample("sphere", 200)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "prohull/error.h"
 #include "prohull/length.h"
@@ -22,10 +23,8 @@ class BudgetReader : YamlReader {
     if (file.IsNull()) return;
     require_keys(file, {"default", "links"});
     if (file["default"]) read_budget(file["default"], options_.budget);
-    const YAML::Node links = file["links"];
-    if (!links || links.IsNull()) return;
-    if (!links.IsMap()) refuse(links, "links: expected the name of a link and its budget on each line");
-    for (const auto& link : links) read_link(link.first, link.second);
+    if (file["links"] && !file["links"].IsNull()) read_links(file["links"]);
+    if (file["default"]) require_heeded(file["default"]);
   }
 
  private:
@@ -37,13 +36,40 @@ class BudgetReader : YamlReader {
                fmt::format("'{}' is not known; expected {}", entry.first.as<std::string>(), fmt::join(known, ", ")));
   }
 
+  void read_links(const YAML::Node& links) const {
+    if (!links.IsMap()) refuse(links, "links: expected the name of a link and its budget on each line");
+    for (const auto& link : links) read_link(link.first, link.second);
+  }
+
+  /// Sizes under default may be for links of another kind.
+  void require_heeded(const YAML::Node& defaults) const {
+    require_sizes(defaults, [&](Collision kind) {
+      return options_.budget.collision == kind ||
+             std::ranges::any_of(options_.budgets, [&](const auto& link) { return link.second.collision == kind; });
+    });
+  }
+
+  template <class IsOfUse>
+  void require_sizes(const YAML::Node& budget, const IsOfUse& is_of_use) const {
+    constexpr std::pair<const char*, Collision> kSizes[]{{"faces", Collision::Hull},
+                                                         {"pieces", Collision::Convex},
+                                                         {"vertices", Collision::Convex},
+                                                         {"spheres", Collision::Spheres}};
+    for (const auto& [size, kind] : kSizes)
+      if (budget[size] && !is_of_use(kind))
+        refuse(budget[size], fmt::format("{} is for collision: {}; leave it out, or say so", size,
+                                         prohull::name_of(collision_names(), kind)));
+  }
+
   void read_link(const YAML::Node& key, const YAML::Node& node) const {
     const auto link = value<std::string>(key, "the name of a link");
     if (std::ranges::find(robot_.links, link, &Link::name) == robot_.links.end())
       refuse(key, fmt::format("{} has no link '{}'; a file of --write-budgets has all links", robot_.name, link));
     const auto [budget, is_new] = options_.budgets.try_emplace(link, options_.budget);
     if (!is_new) refuse(key, fmt::format("the link {} occurs twice", link));
-    if (!node.IsNull()) read_budget(node, budget->second);
+    if (node.IsNull()) return;
+    read_budget(node, budget->second);
+    require_sizes(node, [&](Collision kind) { return budget->second.collision == kind; });
   }
 
   void read_budget(const YAML::Node& node, Budget& budget) const {

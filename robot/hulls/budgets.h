@@ -16,8 +16,9 @@ namespace prohull::robot {
 ///       tool0: {skip: true}
 ///
 /// What a link does not say is as `options.budget` has it after "default" was read. Lengths are numbers in metres, or
-/// have a unit: mm, cm, m or in. Throws InputError(Malformed) with `name` and the line for anything else, and for a
-/// link that the robot does not have.
+/// have a unit: mm, cm, m or in. Throws InputError(Malformed) with `name` and the line for anything else, for a
+/// link that the robot does not have, and for faces, pieces, vertices or spheres where the collision geometry is of
+/// another kind.
 void read_budgets(std::string_view text, const std::string& name, const Robot& robot, LinkHullOptions& options);
 
 /// A file of budgets with every link of the robot, as a start.

@@ -117,6 +117,18 @@ std::vector<DisabledRow> disabled_rows(const Robot& robot, std::string srdf, std
 /// messages. Throws InputError(Malformed) for text that is no SRDF.
 std::vector<LinkPair> disabled_pairs(const Robot& robot, std::string srdf, std::string file);
 
+/// The SRDF file of a robot.
+struct Srdf {
+  std::vector<DisabledRow> rows;   ///< as of disabled_rows
+  std::vector<std::string> notes;  ///< sentences for the user: that it has the name of another robot
+
+  std::vector<LinkPair> pairs() const;  ///< as of disabled_pairs
+};
+
+/// Throws InputError(Malformed) as disabled_pairs, and where the file is not for this robot: there are rows, and none
+/// names two links; or there are elements, and none is of SRDF, as in a URDF file.
+Srdf read_srdf(const Robot& robot, std::string srdf, std::string file);
+
 /// The pairs that are adjacent, or proven to meet never or always, as an SRDF file that MoveIt reads: it does not check
 /// them. With `sampled_pairs` also those that were never, or always, in collision, with the reason "sampled": they may
 /// collide, or be apart, elsewhere.

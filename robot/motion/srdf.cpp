@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
+#include <span>
+#include <string_view>
 #include <utility>
 
 #include "robot/files/xml.h"
@@ -63,6 +66,40 @@ void add_default_rows(const Robot& robot, const XmlDocument& document, std::vect
   }
 }
 
+std::vector<DisabledRow> rows_of(const Robot& robot, const XmlDocument& document) {
+  if (document.root().name != "robot") document.refuse(document.root(), "an SRDF file begins with <robot>");
+  std::vector<DisabledRow> rows;
+  for (const XmlElement* const element : document.root().children_called("disable_collisions")) {
+    const std::string* const reason = element->attribute("reason");
+    rows.push_back(row_of(robot, document.required(*element, "link1"), document.required(*element, "link2"),
+                          reason ? *reason : "", element->line));
+  }
+  add_default_rows(robot, document, rows);
+  return rows;
+}
+
+std::vector<LinkPair> pairs_of(std::span<const DisabledRow> rows) {
+  std::vector<LinkPair> pairs;
+  for (const DisabledRow& row : rows)
+    if (row.links) pairs.push_back(*row.links);
+  std::ranges::sort(pairs);
+  return pairs;
+}
+
+bool is_of_srdf(const XmlElement* element) {
+  constexpr std::array<std::string_view, 10> kNames{"disable_collisions",
+                                                    "disable_default_collisions",
+                                                    "enable_collisions",
+                                                    "end_effector",
+                                                    "group",
+                                                    "group_state",
+                                                    "joint_property",
+                                                    "passive_joint",
+                                                    "virtual_joint",
+                                                    "link_sphere_approximation"};
+  return std::ranges::find(kNames, element->name) != kNames.end();
+}
+
 }  // namespace
 
 std::vector<LinkPair> pairs_always_together(const MotionResult& motion) {
@@ -81,24 +118,32 @@ std::vector<LinkPair> pairs_left_out(const MotionResult& motion, bool sampled_pa
 }
 
 std::vector<DisabledRow> disabled_rows(const Robot& robot, std::string srdf, std::string file) {
-  const XmlDocument document(std::move(srdf), std::move(file));
-  if (document.root().name != "robot") document.refuse(document.root(), "an SRDF file begins with <robot>");
-  std::vector<DisabledRow> rows;
-  for (const XmlElement* const element : document.root().children_called("disable_collisions")) {
-    const std::string* const reason = element->attribute("reason");
-    rows.push_back(row_of(robot, document.required(*element, "link1"), document.required(*element, "link2"),
-                          reason ? *reason : "", element->line));
-  }
-  add_default_rows(robot, document, rows);
-  return rows;
+  return rows_of(robot, XmlDocument(std::move(srdf), std::move(file)));
 }
 
 std::vector<LinkPair> disabled_pairs(const Robot& robot, std::string srdf, std::string file) {
-  std::vector<LinkPair> pairs;
-  for (const DisabledRow& row : disabled_rows(robot, std::move(srdf), std::move(file)))
-    if (row.links) pairs.push_back(*row.links);
-  std::ranges::sort(pairs);
-  return pairs;
+  return pairs_of(disabled_rows(robot, std::move(srdf), std::move(file)));
+}
+
+std::vector<LinkPair> Srdf::pairs() const { return pairs_of(rows); }
+
+Srdf read_srdf(const Robot& robot, std::string srdf, std::string file) {
+  const XmlDocument document(std::move(srdf), file);
+  Srdf read{rows_of(robot, document), {}};
+  const XmlElement& root = document.root();
+  if (!root.children.empty() && std::ranges::none_of(root.children, is_of_srdf))
+    document.refuse(root,
+                    "it has no element of an SRDF file, as <disable_collisions>; name the SRDF file of the robot");
+  const std::string* const name = root.attribute("name");
+  const bool is_of_other = name && *name != robot.name;
+  const std::string whose = is_of_other ? fmt::format("it is of the robot '{}', not of '{}'", *name, robot.name) : "";
+  if (!read.rows.empty() &&
+      std::ranges::none_of(read.rows, [](const DisabledRow& row) { return row.links.has_value(); }))
+    document.refuse(root,
+                    fmt::format("no row of it names two links of this robot{}{}; name the SRDF file of this robot",
+                                is_of_other ? ": " : "", whose));
+  if (is_of_other) read.notes.push_back(fmt::format("{}: {}", file, whose));
+  return read;
 }
 
 std::string srdf_of(const Robot& robot, const MotionResult& motion, bool sampled_pairs) {

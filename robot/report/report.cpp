@@ -362,6 +362,8 @@ void sign(ReportInput& input, std::initializer_list<std::filesystem::path> other
 Json report_json(const ReportInput& input) {
   Json findings = Json::array();
   for (const Finding& finding : findings_of(input)) findings.push_back(finding.text);
+  std::vector<std::string> notes = input.file.notes;
+  notes.insert(notes.end(), input.srdf_notes.begin(), input.srdf_notes.end());
   return {{"robot", clean_text(input.file.robot.name)},
           {"file", clean_text(input.file.path.generic_string())},
           {"format", prohull::name_of(robot_format_names(), input.file.format)},
@@ -373,7 +375,7 @@ Json report_json(const ReportInput& input) {
           {"sources", facts_of(input.sources)},
           {"joints", joints_of(input.file.robot)},
           {"findings", findings},
-          {"notes", texts(input.file.notes)},
+          {"notes", texts(notes)},
           {"links", links_of(input)},
           {"motion", input.motion ? facts_of(*input.motion, input.file.robot) : Json()},
           {"motion_certificate", certificate_facts(input)},

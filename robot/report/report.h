@@ -35,6 +35,7 @@ struct ReportInput {
     std::size_t pairs = 0;            ///< that never meet
   } motion_certificate = {};
   std::vector<DisabledCheck> disabled = {};       ///< the rows of an SRDF file
+  std::vector<std::string> srdf_notes = {};       ///< as of Srdf
   std::vector<std::string> without_spheres = {};  ///< links to which planners that read the spheres are blind
   std::string date = {};                          ///< UTC, as "2026-11-27T14:05:00Z"
   std::vector<HashedFile> sources = {}, written = {};

@@ -262,8 +262,9 @@ std::string marks(const ReportInput& input) {
                          failure ? "✕ Failure" : "! Look", link_to(input, mark.link), html_escaped(mark.text));
   }
   if (items.empty()) items = "<li class=\"good\"><b>✓</b><span>Nothing.</span></li>\n";
-  return fmt::format("<section>\n<h2>What needs a look</h2>\n<ul class=\"marks\">\n{}</ul>\n{}</section>\n", items,
-                     list("What was not read of the file", input.file.notes));
+  return fmt::format(
+      "<section>\n<h2>What needs a look</h2>\n<ul class=\"marks\">\n{}</ul>\n{}</section>\n", items,
+      list("What was not read of the file", input.file.notes) + list("About the SRDF file", input.srdf_notes));
 }
 
 // ---------------------------------------------------------------------------------------------------------------------

@@ -178,6 +178,14 @@ is "what was not turned is not said to be" sh -c '! grep -q "inside out" out'
 echo '<robot name="slide"><disable_collisions link1="cart" link2="base" reason="User"/></robot>' >slide.srdf
 expect 0 "disabled pairs" $motion meets.csv --srdf slide.srdf
 says out "disabled pairs are named" "but for 1 pair that may touch (base and cart)"
+sed 's/name="slide"/name="glide"/' slide.srdf >glide.srdf
+expect 0 "an SRDF with another name" $motion meets.csv --srdf glide.srdf --report glide.json
+for file in out glide.json; do
+  says $file "an SRDF with another name" "glide.srdf: it is of the robot 'glide', not of 'slide'"
+done
+sed -i 's/"cart"/"wagon"/' glide.srdf
+expect 3 "an SRDF of another robot" $motion meets.csv --srdf glide.srdf
+says err "an SRDF of another robot" "no row of it names two links of this robot"
 expect 3 "no SRDF" $motion meets.csv --srdf free.csv
 cat >all.srdf <<'SRDF'
 <robot name="slide">

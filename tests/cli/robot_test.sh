@@ -85,6 +85,20 @@ says out "a row of a link that is not there" 'line 3, base and head, "Never": na
 says out "rows are counted" "robot.srdf: 3 disabled pairs: 1 adjacent, 0 never meet, 0 always, 1 meet, 0 open; 1 REFUTED"
 says rows.xml "rows in JUnit" "three: disabled pairs"
 says rows.json "rows in JSON" '"disabled_pairs"'
+sed 's/name="three"/name="four"/' robot.srdf >four.srdf
+expect 1 "an SRDF with another name" $urdf --check --allow 1m --srdf four.srdf --report four.json --html four.html
+for file in out four.json; do
+  says $file "an SRDF with another name" "four.srdf: it is of the robot 'four', not of 'three'"
+done
+says four.html "an SRDF with another name" "About the SRDF file"
+sed -i 's/"base"/"torso"/' four.srdf
+expect 3 "an SRDF of another robot" $urdf --check --allow 1m --srdf four.srdf
+says err "an SRDF of another robot" "four.srdf: line 1: no row of it names two links of this robot: it is of the robot 'four', not of 'three'; name the SRDF file of this robot"
+expect 3 "a URDF for an SRDF" $urdf --check --allow 1m --srdf robot/robot.urdf
+says err "a URDF for an SRDF" "it has no element of an SRDF file, as <disable_collisions>; name the SRDF file of the robot"
+echo '<robot name="three"/>' >none.srdf
+expect 1 "an SRDF that disables nothing" $urdf --check --allow 1m --srdf none.srdf
+says out "an SRDF that disables nothing" "none.srdf: 0 disabled pairs"
 expect 2 "--srdf without --check" $urdf --srdf robot.srdf -o none
 expect 3 "an SRDF that is not there" $urdf --check --srdf nowhere.srdf
 
@@ -159,6 +173,10 @@ rm -r made/deep
 expect 0 "made again" $urdf -o made/deep $small
 echo '<robot name="r"><link name="a"><visual><geometry><box size="1 1 1"/></geometry></visual></link></robot>' >box.urdf
 expect 0 "a robot of one box" $prohull urdf box.urdf -o box --configurations 0 --no-pictures
+sed 's/name="r"/name="other"/' box.urdf >other.urdf
+expect 2 "a folder of another robot" $prohull urdf other.urdf -o box --configurations 0 --no-pictures
+says err "a folder of another robot" "box: an earlier run has written the robot 'r' to it, whose files would be removed; choose another folder, or remove this one"
+is "its files stay" test -s box/box.urdf
 crashes=0
 for seed in $(seq 60); do
   awk -v seed="$seed" 'BEGIN { srand(seed) }
@@ -236,6 +254,9 @@ expect 2 "--pieces without convex pieces" $urdf -o none --pieces 3
 says err "--pieces without convex pieces" "--pieces needs --collision convex"
 expect 2 "a gap of pieces" $urdf -o none --collision convex --gap 1mm
 says err "a gap of pieces" "takes no gap"
+printf 'links:\n  base: {collision: spheres, faces: [20]}\n' >unheeded.yaml
+expect 3 "faces of spheres" $urdf -o none --budgets unheeded.yaml
+says err "faces of spheres" "unheeded.yaml: line 2: faces is for collision: hull; leave it out, or say so"
 expect 2 "--tight without hulls" $urdf -o none --collision spheres --tight
 expect 2 "two sets of spheres" $urdf -o none --collision spheres --faces 200,60
 printf 'default: {faces: [100]}\nlinks:\n  base: {collision: convex, pieces: 2}\n' >mixed.yaml

@@ -99,6 +99,7 @@ says arm.json "a robot: its name" '"robot": "arm"'
 says arm.json "a robot: the path of its joints" '"joint_path": "turn.csv"'
 says out "a robot" "certified: yes, the union of the pieces as written encloses the links"
 says arm.json "each link" '"link": "bar"'
+says_not arm.json "no volume of the pieces of a robot" '"volume'
 expect 0 "a robot at the beginning" $prohull verify arm.stl bar.off
 expect 0 "one link" $prohull sweep arm.urdf turn.csv --links bar --faces 200 -o bar.glb
 sed 's|<link name="base">.*|<link name="base"/>|' arm.urdf >bare.urdf
@@ -113,8 +114,11 @@ expect 0 "a robot in its workspace" $prohull verify workspace.stl bar.off
 expect 2 "a workspace and a path" $prohull sweep arm.urdf turn.csv --workspace -o no.stl
 expect 2 "the workspace of a mesh" $prohull sweep bar.off --angle 5 --workspace -o no.stl
 sed 's/1.5707963267948966/99/' turn.csv >far.csv
-expect 0 "a path beyond limits" $prohull sweep arm.urdf far.csv -o far.stl
+expect 0 "a path beyond limits" $prohull sweep arm.urdf far.csv -o far.stl --report far.json
 says out "a path beyond limits" "BEYOND LIMITS: "
+says far.json "a path beyond limits, in JSON" '"joint": "turn",'
+says far.json "a path beyond limits, in JSON" '"position": 99.0,'
+says arm.json "a path within limits" '"beyond_limits": null'
 expect 2 "no such link" $prohull sweep arm.urdf turn.csv --links elbow -o no.stl
 says err "no such link" "the robot has no link 'elbow'"
 expect 2 "a link without a shape" $prohull sweep bare.urdf turn.csv --links base,bar -o no.stl

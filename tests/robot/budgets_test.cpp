@@ -79,6 +79,18 @@ TEST(Budgets, RefuseWhatTheyDoNotKnowWithItsLine) {
   EXPECT_NE(message_of("default: {faces: [500").find("no YAML"), std::string::npos);
 }
 
+TEST(Budgets, RefuseSizesOfAnotherKind) {
+  EXPECT_EQ(message_of("links:\n  arm: {collision: spheres, faces: [20]}"),
+            "budgets.yaml: line 2: faces is for collision: hull; leave it out, or say so");
+  EXPECT_TRUE(has(message_of("links:\n  arm: {pieces: 3}"), "pieces is for collision: convex"));
+  EXPECT_TRUE(has(message_of("links:\n  arm: {vertices: 9}"), "vertices is for collision: convex"));
+  EXPECT_TRUE(has(message_of("links:\n  arm: {collision: convex, spheres: 9}"), "spheres is for collision: spheres"));
+  EXPECT_TRUE(has(message_of("default: {pieces: 3}\nlinks:\n  arm: {}"), "line 1: pieces is for collision: convex"));
+  const std::string mixed = "default: {faces: 80, pieces: 3}\nlinks:\n  arm: {collision: convex}";
+  EXPECT_EQ(read(mixed).budgets.at("arm").pieces, 3U) << "a default may be for some links only";
+  EXPECT_EQ(read("default: {faces: 80}\nlinks:\n  arm: {collision: spheres, spheres: 9}").budget.faces[0], 80U);
+}
+
 TEST(Budgets, AreReadAsTheyWereWritten) {
   Robot robot{.name = "r", .links = {{.name = "arm: \"1\"\n"}, {.name = "empty"}}};
   robot.links[0].visual.resize(1);

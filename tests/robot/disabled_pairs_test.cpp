@@ -104,6 +104,22 @@ TEST(DisabledPairs, AreThoseByDefaultToo) {
   EXPECT_EQ(disabled_pairs(file.robot, srdf, "r.srdf"), (std::vector<LinkPair>{{0, 1}, {0, 3}, {0, 4}}));
 }
 
+TEST(DisabledPairs, AreReadFromTheFileOfThisRobot) {
+  const RobotFile file = robot_with_reach("1");
+  const auto read = [&](const std::string& content) {
+    return read_srdf(file.robot, "<robot name=\"s\">" + content + "</robot>", "s.srdf");
+  };
+  const Srdf other = read(row("a", "d", "User") + row("a", "x", "Never"));
+  EXPECT_EQ(other.pairs(), (std::vector<LinkPair>{{0, 3}}));
+  EXPECT_EQ(other.notes, std::vector<std::string>{"s.srdf: it is of the robot 's', not of 'r'"});
+  EXPECT_TRUE(read_srdf(file.robot, kSrdf, "r.srdf").notes.empty());
+  EXPECT_EQ(read("").notes.size(), 1U) << "it disables nothing";
+  EXPECT_TRUE(read("<group name=\"arm\"/>").rows.empty());
+  EXPECT_TRUE(has(refusal_of([&] { read(row("x", "y", "Never") + row("a", "x", "Never") + row("a", "a", "Never")); }),
+                  "no row of it names two links of this robot: it is of the robot 's', not of 'r'"));
+  EXPECT_TRUE(has(refusal_of([&] { read_srdf(file.robot, kRobot, "r.urdf"); }), "it has no element of an SRDF file"));
+}
+
 TEST(DisabledPairs, TellAReasonThatIsRefuted) {
   for (const auto& [reach, is_wrong] : {std::pair("1", true), std::pair("2.75", false)}) {
     const RobotFile file = robot_with_reach(reach);
