@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -315,6 +316,52 @@ class Improvement {
   std::vector<Member> members_;
 };
 
+/// Places that hold all patches within a reach.
+struct Start {
+  std::vector<Place> places;
+  double reach = kUnbounded;
+};
+
+/// Balls around boxes: the one that reaches out most is halved across its longest side, again and again, until they
+/// keep `enough`. Of all these the start that reaches out least. Greedy starts leave corners over, which take many
+/// balls.
+Start halved(const BallTask& task, std::size_t max_balls, double enough) {
+  const auto& patches = task.patches.patches;
+  const auto box_of = [&](const std::vector<std::uint32_t>& some) {
+    Box box;
+    for (const std::uint32_t p : some)
+      for (const Vec3& point : task.patches.points_of(patches[p])) box.extend(point);
+    return box;
+  };
+  const auto ball_around = [&](std::vector<std::uint32_t> some) {
+    Member ball{task.depth.at(box_of(some).center()), std::move(some)};
+    for (const std::uint32_t p : ball.patches)
+      ball.needed = std::max(ball.needed, need(ball.place, task.patches, patches[p]));
+    return ball;
+  };
+  std::vector<std::uint32_t> all(patches.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<Member> balls{ball_around(std::move(all))};
+  Start best;
+  for (;;) {
+    task.meter.at(0);
+    Member& worst = *std::ranges::max_element(balls, {}, &Member::needed);
+    if (worst.needed < best.reach) {
+      best = {{}, worst.needed};
+      for (const Member& ball : balls) best.places.push_back(ball.place);
+    }
+    if (balls.size() >= max_balls || best.reach <= enough) return best;
+    const Box box = box_of(worst.patches);
+    const Vec3 middle = box.center(), size = box.max - box.min;
+    const int axis = size.x >= std::max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
+    std::vector<std::uint32_t> lower, upper;
+    for (const std::uint32_t p : worst.patches) (patches[p].middle[axis] > middle[axis] ? upper : lower).push_back(p);
+    if (lower.empty() || upper.empty()) return best;
+    worst = ball_around(std::move(lower));
+    balls.push_back(ball_around(std::move(upper)));
+  }
+}
+
 std::vector<Place> chosen_of(const std::vector<Place>& places, const std::vector<std::uint32_t>& chosen) {
   std::vector<Place> result;
   for (const std::uint32_t i : chosen) result.push_back(places[i]);
@@ -368,16 +415,30 @@ BallCover least_reach(const BallTask& task, const std::vector<Place>& places, st
       most = reach, best = std::move(chosen);
   }
   task.meter.at(0.7);
-  return improved(task, chosen_of(places, best), most, max_balls);
+  BallCover cover = improved(task, chosen_of(places, best), most, max_balls);
+  constexpr double kRegained = 1.5;  // a start this much worse may still end better; of more, few do
+  const Start parts = halved(task, max_balls, 0);
+  if (!(parts.reach < kRegained * most)) return cover;
+  BallCover other = improved(task, parts.places, parts.reach, max_balls);
+  return other.reach < cover.reach ? other : cover;
 }
 
 BallCover fewest_balls(const BallTask& task, const std::vector<Place>& places, std::size_t max_balls, double reach) {
   constexpr double kLoosest = 1.3, kStep = 0.05;
   const Coverage coverage(task, places, reach * kLoosest);
+  std::size_t tried = 0;  // of balls around boxes, which are the same for the same number
   for (double loose = kLoosest; loose > 1 - kStep / 2; loose -= kStep) {
-    const std::vector<std::uint32_t> chosen = coverage.greedy(reach * loose, max_balls);
-    if (chosen.empty()) return {};
-    BallCover cover = improved(task, chosen_of(places, chosen), reach * loose, chosen.size());
+    const double enough = reach * loose;
+    const std::vector<Place> greedy = chosen_of(places, coverage.greedy(enough, max_balls));
+    const Start fewer = halved(task, greedy.empty() ? max_balls : greedy.size() - 1, enough);
+    if (greedy.empty() && fewer.reach > enough) return {};
+    if (fewer.reach <= enough && fewer.places.size() > tried) {
+      tried = fewer.places.size();
+      BallCover cover = improved(task, fewer.places, enough, tried);
+      if (cover.reach <= reach) return cover;
+    }
+    if (greedy.empty()) continue;
+    BallCover cover = improved(task, greedy, enough, greedy.size());
     if (cover.reach <= reach) return cover;
   }
   return {};

@@ -123,7 +123,7 @@ class SphereCoverer {
   SphereCover best_cover() {
     std::optional<SphereCover> best = within_distance();
     if (best && best->within_bounds) return std::move(*best);
-    SphereCover nearest = proven(reach_least());
+    SphereCover nearest = nearest_cover();
     nearest.verify_seconds += best ? best->verify_seconds : 0;
     if (!best || nearest.verdict.distance().upper <= best->verdict.distance().upper) best = std::move(nearest);
     if (!best->within_bounds)
@@ -159,10 +159,25 @@ class SphereCoverer {
     return cover::fewest_balls(task, cut.places, options_.max_balls, reach);
   }
 
+  /// For few balls the search estimates coarsely, so that half as many may be proven to reach out by less.
+  SphereCover nearest_cover() {
+    constexpr std::size_t kFew = 8;
+    const auto rank = [](const SphereCover& c) { return std::pair(c.verdict.distance().upper, c.volume); };
+    SphereCover best = proven(reach_least(options_.max_balls));
+    double verify_seconds = best.verify_seconds;
+    for (std::size_t count = options_.max_balls / 2; count > 0 && options_.max_balls <= kFew; count /= 2) {
+      SphereCover fewer = proven(reach_least(count));
+      verify_seconds += fewer.verify_seconds;
+      if (fewer.verdict.certified >= best.verdict.certified && rank(fewer) < rank(best)) best = std::move(fewer);
+    }
+    best.verify_seconds = verify_seconds;
+    return best;
+  }
+
   /// Searches with coarser or finer patches, until they are small beside the reach, or as many as there may be.
-  BallCover reach_least() {
+  BallCover reach_least(std::size_t max_balls) {
     ProgressMeter meter(options_.progress, "spheres");
-    const double first = diagonal_ * 0.25 / std::sqrt(static_cast<double>(options_.max_balls));
+    const double first = diagonal_ * 0.25 / std::sqrt(static_cast<double>(max_balls));
     constexpr int kMostRounds = 12;  // where a finer guess finds nothing and a coarser one too much, they would go on
     double guess = first, finest = std::numeric_limits<double>::infinity();
     BallCover best;
@@ -171,7 +186,7 @@ class SphereCoverer {
       if (!best.balls.empty() && size >= finest) return best;
       const Cut cut = cut_up(size, meter);
       const BallTask task{cut.patches, *depth_, cut.size, meter};
-      BallCover found = cover::least_reach(task, cut.places, options_.max_balls, std::max(guess, 2 * cut.size));
+      BallCover found = cover::least_reach(task, cut.places, max_balls, std::max(guess, 2 * cut.size));
       const bool is_any = !found.balls.empty();
       const double reach = found.reach;
       if (is_any) finest = std::min(finest, size);

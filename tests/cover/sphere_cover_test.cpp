@@ -121,6 +121,24 @@ TEST(SphereCover, MoreBallsReachOutLess) {
 }
 
 // Two tetrahedra that share a face: it is in the solid, and repairs leave triangles without area in it.
+TEST(SphereCover, FewBallsAroundACubeAreOneOrOfItsOctants) {
+  for (const double at : {0.0, -0.1}) {
+    const TriangleMesh cube = meshes::box({at, at, at}, {at + 0.2, at + 0.2, at + 0.2});
+    const auto reach = [&](std::size_t count) {
+      const SphereCover cover = sphere_cover(cube, {.max_balls = count});
+      EXPECT_TRUE(cover.verdict.certified);
+      return cover.verdict.distance().upper;
+    };
+    const double of_one = reach(1);
+    EXPECT_LE(reach(2), of_one);
+    EXPECT_LE(reach(4), of_one);
+    EXPECT_LE(reach(8), 0.04);
+    const SphereCover near = sphere_cover(cube, {.max_balls = 64, .max_distance = 0.038});
+    EXPECT_TRUE(near.within_bounds);
+    EXPECT_EQ(near.balls.size(), 8U);
+  }
+}
+
 TEST(SphereCover, OfTetrahedraWithAFaceInCommonReachesOutLittle) {
   const TriangleMesh joined =
       meshes::make({{1, 0, 0}, {-0.5, 0.8660254, 0}, {-0.5, -0.8660254, 0}, {0, 0, 1}, {0, 0, -1}},
