@@ -366,7 +366,7 @@ TEST(ConvexCover, RefusesWhatItCannotDo) {
   EXPECT_THROW(convex_cover(box, {.bounds = {.max_distance = -1}}), InputError);
   EXPECT_THROW(convex_cover(TriangleMesh{}), InputError);
   try {
-    convex_cover(meshes::tetrahedron({0, 0, 0}, {1e-90, 0, 0}, {0, 1e-90, 0}, {0, 0, 1e-90}));
+    convex_cover(meshes::tetrahedron({0, 0, 0}, {1e-160, 0, 0}, {0, 1e-160, 0}, {0, 0, 1e-160}));
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string_view(error.what()).find("across"), std::string_view::npos) << error.what();
