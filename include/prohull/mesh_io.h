@@ -71,10 +71,10 @@ struct ReadOptions {
 /// ReadOptions::marks asks for them, and so is everything after the last record that a header counts. A file without
 /// faces gives a mesh without triangles.
 ///
-/// 3MF, FBX, X3D, what our reader of COLLADA refuses, and other formats are read by assimp, in a program of its own, prohull-import.
-/// Whatever that program does, crashes included, becomes an InputError. It may use 20 s and 2 s more for each MiB of
-/// the file, and 1 GiB of memory and 200 bytes more for each byte of the file. It is found by the environment variable
-/// PROHULL_IMPORTER, beside the running program, or where it was installed (docs/formats.md).
+/// 3MF, FBX, X3D, what our reader of COLLADA refuses, and other formats are read by assimp, in a program of its own,
+/// prohull-import. Whatever that program does, crashes included, becomes an InputError. It may use 20 s and 2 s more
+/// for each MiB of the file, and 1 GiB of memory and 200 bytes more for each byte of the file. It is found by the
+/// environment variable PROHULL_IMPORTER, beside the running program, or where it was installed (docs/formats.md).
 TriangleMesh read_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
 
 /// Reads the content of a mesh file. `name` tells the format, stands in error messages, and tells the folder of the

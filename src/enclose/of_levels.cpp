@@ -2,8 +2,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
-#include <tuple>
 #include <utility>
 
 #include "construct/shape_guards.h"
@@ -63,46 +61,6 @@ LevelTrial moved_level(const ProgressiveHull& hull, const Making& making) {
   return {faces, hull.level(faces), 1};
 }
 
-struct Step {
-  double faces;  ///< of those asked for
-  unsigned rounds;
-  double stuck;  ///< with more, in Candidate::most_faces
-};
-
-constexpr Step kSteps[]{{1.5, 2, 4}, {1, kRoundsAtTheEnd, 1}};
-
-// A collapse places its vertex outside of faces that stand off already: what moves on the way keeps what follows near.
-// Of 100 hulls of 60 to 300 faces of robots' wraps, 99 have less void than with the two steps above, 0.79 times in the
-// mean, in 1.15 times the time. Four more steps, or two that begin with eight times the faces, were no better.
-constexpr Step kStepsOfWraps[]{{4, 8, 10}, {2, 8, 5}, {1.4, 8, 4}, {1, kRoundsAtTheEnd, 1}};
-
-// One that is stuck with too many faces to be better than another hull does not move any more. The mesh has its levels
-// already: one of them comes first.
-EnclosingHull in_steps(std::span<const Step> steps, const Making& making) {
-  const bool is_of_mesh = making.solid().source == Source::Mesh;
-  const double target = double(making.candidate.target_faces);
-  EnclosingHull hull;
-  hull.mesh = is_of_mesh ? making.solids.levels(making.candidate.solid, making.candidate.seed)
-                               .hull.level(std::size_t(std::llround(steps[0].faces * target)))
-                         : making.solid().mesh;
-  for (const auto& [faces, rounds, stuck] : steps) {
-    if (!(signed_volume(hull.mesh) > 0)) break;  // an inner hull may vanish
-    HullOptions options = making.hull_options();
-    options.target_faces = std::size_t(std::llround(faces * target));
-    options.guards.max_overhang = overhang_left(bounding_box(hull.mesh), bounding_box(making.request.input.original),
-                                                making.options().hull.guards.max_overhang);
-    HullResult result = build_hull(hull.mesh, options);
-    hull.mesh = result.hull.base();
-    const bool is_stuck = double(hull.mesh.face_count()) > stuck * double(making.candidate.most_faces);
-    if (!is_stuck) hull.mesh = placed(hull.mesh, making, rounds);
-    hull.target_reached = result.stopped == Stopped::TargetReached;
-    hull.refusals += result.refusals, hull.blocked = result.blocked;
-    hull.relaxed_guards = std::max(hull.relaxed_guards, result.relaxed_guards);
-    if (is_stuck) break;
-  }
-  return hull;
-}
-
 }  // namespace
 
 EnclosingHull built_of_levels(const Making& making) {
@@ -123,19 +81,37 @@ EnclosingHull built_of_levels(const Making& making) {
   return hull;
 }
 
-// What has moved early may be stuck, or swell with weaker guards, where a hull that moves late does not: of a bracket
-// at 60 faces, every second one. With a padding, early ones have 0.96 times the void in the mean, but up to 1.5 times.
+// Moved before it has come down to its faces, too, a hull is up to 1 % smaller. One that is stuck with too many faces
+// to be better than another hull does not move any more. The mesh has its levels already: one of them comes first.
 EnclosingHull built_in_steps(const Making& making) {
-  if (making.solid().source != Source::Wrap || making.request.is_padded()) return in_steps(kSteps, making);
-  EnclosingHull early = in_steps(kStepsOfWraps, making);
-  if (early.target_reached && early.relaxed_guards == 0) return early;
-  EnclosingHull late = in_steps(kSteps, making);
-  const auto rank = [&](const EnclosingHull& hull) {
-    const double volume = signed_volume(hull.mesh);
-    return std::tuple(std::max(hull.mesh.face_count(), making.candidate.target_faces),
-                      making.request.is_outer() ? volume : -volume);
+  struct Step {
+    double faces;  ///< of those asked for
+    unsigned rounds;
+    double stuck;  ///< with more, in Candidate::most_faces
   };
-  return rank(late) < rank(early) ? late : early;
+  constexpr Step kSteps[]{{1.5, 2, 4}, {1, kRoundsAtTheEnd, 1}};
+  const double target = double(making.candidate.target_faces);
+  EnclosingHull hull;
+  hull.mesh = making.solid().source == Source::Mesh
+                  ? making.solids.levels(making.candidate.solid, making.candidate.seed)
+                        .hull.level(std::size_t(std::llround(kSteps[0].faces * target)))
+                  : making.solid().mesh;
+  for (const auto& [faces, rounds, stuck] : kSteps) {
+    if (!(signed_volume(hull.mesh) > 0)) break;  // an inner hull may vanish
+    HullOptions options = making.hull_options();
+    options.target_faces = std::size_t(std::llround(faces * target));
+    options.guards.max_overhang = overhang_left(bounding_box(hull.mesh), bounding_box(making.request.input.original),
+                                                making.options().hull.guards.max_overhang);
+    HullResult result = build_hull(hull.mesh, options);
+    hull.mesh = result.hull.base();
+    const bool is_stuck = double(hull.mesh.face_count()) > stuck * double(making.candidate.most_faces);
+    if (!is_stuck) hull.mesh = placed(hull.mesh, making, rounds);
+    hull.target_reached = result.stopped == Stopped::TargetReached;
+    hull.refusals += result.refusals, hull.blocked = result.blocked;
+    hull.relaxed_guards = std::max(hull.relaxed_guards, result.relaxed_guards);
+    if (is_stuck) break;
+  }
+  return hull;
 }
 
 }  // namespace prohull

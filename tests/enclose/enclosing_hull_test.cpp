@@ -360,11 +360,6 @@ TEST(EnclosingHull, OfARoomOfPanelsIsSolidAndCoversItsDoors) {
   EXPECT_TRUE(doors.face_count() == 0 || verify_cover(doors, hull.mesh).encloses);
 }
 
-TEST(EnclosingHull, OfAWrapMovesOnItsWayDown) {
-  EXPECT_LT(only(hull_of(make_sample("bracket", 1000), 100, {.repair = Repair::Wrap})).void_ratio, 0.12)
-      << "0.15 if it moves near the end only";
-}
-
 TEST(EnclosingHull, OfAWrapMovesTowardsTheTriangles) {
   const TriangleMesh knot = make_sample("knot", effort<std::size_t>(2000, 600));
   const EnclosingHulls made = hull_of(knot, 300, {.repair = Repair::Wrap});
