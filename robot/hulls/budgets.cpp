@@ -69,7 +69,7 @@ class BudgetReader : YamlReader {
     if (!is_new) refuse(key, fmt::format("the link {} occurs twice", link));
     if (node.IsNull()) return;
     read_budget(node, budget->second);
-    require_sizes(node, [&](Collision kind) { return budget->second.collision == kind; });
+    require_sizes(node, [&, &made = budget->second](Collision kind) { return made.collision == kind; });
   }
 
   void read_budget(const YAML::Node& node, Budget& budget) const {
