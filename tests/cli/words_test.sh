@@ -509,8 +509,9 @@ expect 4 "too few steps for a gap" $prohull verify far.obj ball.obj --gap 1% --s
 says out "too few steps for a gap" "UNDECIDED: far.obj encloses ball.obj, and may keep the gap of "
 says verify.json "too few steps for a gap" '"keeps_gap": null'
 expect 1 "one face that is too near" $prohull verify far.obj ball.obj --gap 50% --steps 100
-expect 0 "spheres" $prohull spheres ball.obj -o balls.yaml --count 8
-expect 4 "too few steps for spheres" $prohull verify --union balls.yaml ball.obj --steps 1
+$prohull sample torus -o ring.obj --faces 300 >out
+expect 0 "spheres" $prohull spheres ring.obj -o balls.yaml --count 8
+expect 4 "too few steps for spheres" $prohull verify --union balls.yaml ring.obj --steps 1
 says out "too few steps for spheres" "UNDECIDED: it is undecided whether the balls cover all of "
 
 
