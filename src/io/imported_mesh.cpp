@@ -194,23 +194,29 @@ ImportLimits import_limits(std::size_t file_size) {
           decompression_limit(file_size)};
 }
 
-TriangleMesh imported_mesh(std::string_view content, const std::string& file, const ImportLimits& limits,
-                           const Progress& progress) {
-  const std::optional<std::string> utf8 = utf8_of_utf16(content);  // assimp 5.2.5 reads XML in UTF-8 only
-  if (is_collada(file)) try {
-      return read_collada(utf8 ? *utf8 : content, file, limits.output);
-    } catch (const InputError&) {  // assimp may read it
-    }
+TriangleMesh mesh_by_assimp(std::string_view content, const std::string& file, const ImportLimits& limits,
+                            const Progress& progress) {
   const auto program = importer();
   if (!program) refuse_without_importer(file);
   const std::vector<std::string> arguments = {without_gz(file).string(),
                                               fmt::format("{}", (limits.time.count() + 1) / 2),
                                               fmt::format("{}", limits.memory), limits.alone ? kImportAlone : ""};
   ProgressMeter meter(progress, "read");
-  const ProgramResult result = run_program(*program, arguments, utf8 ? *utf8 : content, {limits.time, limits.output},
+  const ProgramResult result = run_program(*program, arguments, content, {limits.time, limits.output},
                                            [&](double fraction) { meter.at(fraction); });
   check(result, file, *program, limits);
   return ImportReader(result.output, file).read();
+}
+
+TriangleMesh imported_mesh(std::string_view content, const std::string& file, const ImportLimits& limits,
+                           const Progress& progress) {
+  const std::optional<std::string> utf8 = utf8_of_utf16(content);  // assimp 5.2.5 reads XML in UTF-8 only
+  if (utf8) content = *utf8;
+  if (is_collada(file)) try {
+      return read_collada(content, file, limits.output);
+    } catch (const InputError&) {  // assimp may read it
+    }
+  return mesh_by_assimp(content, file, limits, progress);
 }
 
 }  // namespace prohull

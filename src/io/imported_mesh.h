@@ -27,6 +27,10 @@ struct ImportLimits {
 ImportLimits import_limits(std::size_t file_size);
 
 /// Reads the file with prohull-import. Throws InputError, whatever becomes of that program; Cancelled.
+TriangleMesh mesh_by_assimp(std::string_view content, const std::string& file, const ImportLimits& limits,
+                            const Progress& progress);
+
+/// The same, but for COLLADA, which read_collada reads if it can.
 TriangleMesh imported_mesh(std::string_view content, const std::string& file, const ImportLimits& limits,
                            const Progress& progress);
 

@@ -1,4 +1,5 @@
 #include "io/imported_mesh.h"
+#include "io/mesh_readers.h"
 
 #include <cstdlib>
 
@@ -255,6 +256,18 @@ TEST_F(Assimp, ReadsOtherFilesUnlessTheFileHasToStandAlone) {
 TEST_F(Assimp, ThatRefusesIsQuoted) {
   expect_refused("hello", "a.dae",
                  "a.dae: assimp refuses it: Unable to read file, malformed XML" + std::string(kConvert));
+}
+
+TEST_F(Assimp, GivesTheBitsThatOurReaderOfColladaGives) {
+  const std::string inner =
+      "<node><scale>-1.1 2 0.3</scale><rotate>0 0.6 0.8 33.3</rotate>" + std::string(kInstance) + "</node>";
+  for (const std::string& text :
+       {collada("", kInstance), collada("<unit meter=\"0.0254\"/><up_axis>Y_UP</up_axis>", inner),
+        collada("", "<node><matrix>0 -1 0 .1 1 0 0 2e-1 0 0 1 30 0 0 0 1</matrix>" + inner + kInstance + "</node>")}) {
+    const TriangleMesh ours = read_collada(text, "a.dae", kLimits.output);
+    EXPECT_GT(ours.face_count(), 0u);
+    EXPECT_EQ(ours, mesh_by_assimp(text, "a.dae", kLimits, {}));
+  }
 }
 
 TEST_F(Assimp, MayCrashOnWhatIsNestedDeeply) {
