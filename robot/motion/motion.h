@@ -110,8 +110,6 @@ struct DisabledRow {
   std::optional<LinkPair> links;     ///< none if the robot does not have them, or they are the same one
   std::size_t line = 0;
 };
-/// All of them in their order, those by default last. Throws as disabled_pairs.
-std::vector<DisabledRow> disabled_rows(const Robot& robot, std::string srdf, std::string file);
 
 /// The pairs that an SRDF file disables, sorted. Names that the robot does not have are left out. `file` stands in
 /// messages. Throws InputError(Malformed) for text that is no SRDF.
@@ -119,7 +117,7 @@ std::vector<LinkPair> disabled_pairs(const Robot& robot, std::string srdf, std::
 
 /// The SRDF file of a robot.
 struct Srdf {
-  std::vector<DisabledRow> rows;   ///< as of disabled_rows
+  std::vector<DisabledRow> rows;   ///< in their order, those by default last
   std::vector<std::string> notes;  ///< sentences for the user: that it has the name of another robot
 
   std::vector<LinkPair> pairs() const;  ///< as of disabled_pairs

@@ -117,12 +117,8 @@ std::vector<LinkPair> pairs_left_out(const MotionResult& motion, bool sampled_pa
   return pairs;
 }
 
-std::vector<DisabledRow> disabled_rows(const Robot& robot, std::string srdf, std::string file) {
-  return rows_of(robot, XmlDocument(std::move(srdf), std::move(file)));
-}
-
 std::vector<LinkPair> disabled_pairs(const Robot& robot, std::string srdf, std::string file) {
-  return pairs_of(disabled_rows(robot, std::move(srdf), std::move(file)));
+  return pairs_of(rows_of(robot, XmlDocument(std::move(srdf), std::move(file))));
 }
 
 std::vector<LinkPair> Srdf::pairs() const { return pairs_of(rows); }

@@ -90,8 +90,8 @@ void Candidates::plan_offset() {
 }
 
 // Where a mesh does not cover its own folds, as where caps of openings cross its walls, sheets cover them, and all
-// collapses of both keep the bound. At 0.1 % of the diagonal, hulls of 10 robots' parts for which no wrap was fine
-// enough keep it with 1,248 to 12,500 faces after 0.5 to 16 s. At 0.3 % there are parts with 0.5 and with 1.5 times the
+// collapses of both keep the bound. At 0.1 % of the diagonal, hulls of 9 robots' parts for which no wrap was fine
+// enough keep it with 1,248 to 15,314 faces after 0.5 to 12 s. At 0.3 % there are parts with 0.5 and with 1.5 times the
 // faces of the hull of a wrap. At 1/8 of the bound, sheets around a wrist closed a cavity.
 void Candidates::plan_sheets(bool is_instead_of_wraps) {
   steps_.push_back([=, this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {

@@ -66,7 +66,7 @@ std::string xml_in(std::string_view content, const std::filesystem::path& name, 
 
 FileUnit unit_of_file(std::string_view content, const std::filesystem::path& name) {
   const std::string suffix = lower_case_extension(without_gz(name));
-  if (suffix == ".dae" || suffix == ".zae") return {1, true};  // prohull-import makes metres of them
+  if (suffix == ".dae" || suffix == ".zae") return {1, true};  // readers make metres of them
   if (suffix == ".3mf") return {length_of_unit(said_unit(xml_in(content, name, ".model"), "model")), true};
   if (suffix == ".amf") return {length_of_unit(said_unit(xml_in(content, name, ".amf"), "amf")), true};
   if (suffix == ".gltf" || is_glb(content)) return {1, false};

@@ -15,7 +15,7 @@ namespace prohull {
 /// ".3ds", ".3mf" and so on.
 std::span<const std::string_view> imported_extensions();
 
-/// Whether files of that name are left to prohull-import: .dae, .3mf, .fbx and others, also with .gz behind.
+/// Whether imported_mesh reads files of that name: .dae, .3mf, .fbx and others, also with .gz behind.
 bool is_imported(const std::filesystem::path& name);
 
 /// What prohull-import may use for one file.

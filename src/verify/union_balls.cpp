@@ -193,7 +193,7 @@ class TriangleCutter {
     const auto at = [&](std::size_t k) -> const Corner& { return part[(first + k) % n]; };
     const auto length = [&](std::size_t k) { return side(part, (first + k) % n); };
     const auto middle = [&](std::size_t k) { return corner(at(k).weights * 0.5 + at(k + 1).weights * 0.5, near); };
-    const std::size_t second = n == 3 && length(1) < length(2) ? 2 : n == 3 ? 1 : 2;
+    const std::size_t second = n == 3 && !(length(1) < length(2)) ? 1 : 2;
     const bool cuts_two = n == 4 || (n == 3 && length(second) > 2 * length(3 - second));
     Cut cut{length(0), middle(0), cuts_two ? middle(second) : at(2), {}, {}};
     cut.before = {cut.middle, at(1)};

@@ -41,7 +41,7 @@ const std::string kSrdf = "<robot name=\"r\">\n" + row("d", "a", "Never") + row(
                           row("a", "e", "Never") + row("a", "d", "User") + row("d", "b", "Never") + "</robot>";
 
 std::vector<DisabledCheck> checks_with(const RobotFile& file) {
-  return check_disabled_pairs(file.robot, disabled_rows(file.robot, kSrdf, "r.srdf"));
+  return check_disabled_pairs(file.robot, read_srdf(file.robot, kSrdf, "r.srdf").rows);
 }
 
 TEST(DisabledPairs, AreDecidedRowByRow) {
@@ -84,7 +84,7 @@ TEST(DisabledPairs, AreDecidedWhereTwoJointsMoveBetweenThem) {
   text.replace(text.find("xyz=\"0 0 3\""), 11, "xyz=\"0 0 0\"");
   const RobotFile file = read_robot(text, "r.urdf");
   const std::string srdf = "<robot name=\"r\">" + row("a", "c", "Never") + row("a", "b", "Adjacent") + "</robot>";
-  const auto checks = check_disabled_pairs(file.robot, disabled_rows(file.robot, srdf, "r.srdf"));
+  const auto checks = check_disabled_pairs(file.robot, read_srdf(file.robot, srdf, "r.srdf").rows);
   EXPECT_EQ(checks[0].collision.verdict, PairVerdict::Meets);
   EXPECT_TRUE(checks[0].is_refuted());
   EXPECT_EQ(checks[1].collision.verdict, PairVerdict::Adjacent);
@@ -95,7 +95,7 @@ TEST(DisabledPairs, AreThoseByDefaultToo) {
   const std::string srdf =
       "<robot name=\"r\"><disable_default_collisions link=\"a\"/>" + row("a", "d", "User") +
       "<enable_collisions link1=\"c\" link2=\"a\"/><disable_default_collisions link=\"x\"/></robot>";
-  const std::vector<DisabledRow> rows = disabled_rows(file.robot, srdf, "r.srdf");
+  const std::vector<DisabledRow> rows = read_srdf(file.robot, srdf, "r.srdf").rows;
   std::vector<std::string> pairs;
   for (const DisabledRow& r : rows) pairs.push_back(r.link1 + " " + r.link2 + " " + r.reason);
   EXPECT_EQ(pairs,
@@ -124,7 +124,7 @@ TEST(DisabledPairs, TellAReasonThatIsRefuted) {
   for (const auto& [reach, is_wrong] : {std::pair("1", true), std::pair("2.75", false)}) {
     const RobotFile file = robot_with_reach(reach);
     const std::string srdf = "<robot name=\"r\">" + row("a", "d", "Always") + row("a", "d", "Never") + "</robot>";
-    const auto checks = check_disabled_pairs(file.robot, disabled_rows(file.robot, srdf, "r.srdf"));
+    const auto checks = check_disabled_pairs(file.robot, read_srdf(file.robot, srdf, "r.srdf").rows);
     EXPECT_EQ(checks[0].has_refuted_reason(), is_wrong);
     EXPECT_FALSE(checks[0].is_refuted());
     EXPECT_FALSE(checks[1].has_refuted_reason());
