@@ -120,6 +120,19 @@ TEST(RepairedMesh, TurnsSingleFaces) {
   EXPECT_EQ(repaired.dropped.face_count(), 0u);
 }
 
+TEST(RepairedMesh, TurnsWhatCrossesOthersIfAskedTo) {
+  const TriangleMesh crossed =
+      together(box({-1, -1, -1}, {1, 1, 1}), inside_out(box({-0.5, -0.5, -1.5}, {0.5, 0.5, 1.5})));
+  EXPECT_FALSE(repaired_mesh(crossed).closed);
+  const RepairedMesh turned = repaired_mesh(crossed, {.turn_crossing = true});
+  ASSERT_TRUE(turned.closed);
+  EXPECT_DOUBLE_EQ(turned.closed->report.volume, 8 + 3);
+  EXPECT_EQ(
+      describe(turned.repairs),
+      std::vector<std::string>{"turned 1 component that was inside out and crosses others (12 faces), so that its "
+                               "inside counts as solid"});
+}
+
 TEST(RepairedMesh, SplitsVerticesWherePartsMeet) {
   const TriangleMesh touching = soup(together(kSmallBox, box({2, 2, 2}, {3, 3, 3})));
   const RepairedMesh repaired = repaired_mesh(touching);
