@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 
 #include "command.h"
 #include "prohull/detail/closed_original.h"
+#include "prohull/detail/extension.h"
 #include "prohull/detail/rounded.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
@@ -200,29 +202,54 @@ std::string table_row(const Judged& judged, int exit_code) {
                                               : found.why_not);
 }
 
+using Paths = std::vector<std::filesystem::path>;
+
+/// Takes out of `hulls` those of each mesh: of its name with the suffix, or, if none is left for it, without.
+std::map<std::filesystem::path, Paths> taken_by_mesh(const Paths& meshes, Paths& hulls) {
+  std::map<std::filesystem::path, Paths> taken;
+  const auto take = [&](const auto& name_of) {
+    for (const auto& mesh : meshes)
+      if (Paths& of_mesh = taken[mesh]; of_mesh.empty()) {
+        const auto is_other = [&](const auto& hull) { return name_of(hull) != name_of(mesh); };
+        const auto its = std::stable_partition(hulls.begin(), hulls.end(), is_other);
+        of_mesh.assign(its, hulls.end());
+        hulls.erase(its, hulls.end());
+      }
+  };
+  take([](const auto& path) { return without_gz(path).filename(); });
+  take([](const auto& path) { return named_after("{name}", path); });
+  return taken;
+}
+
+std::filesystem::path only_hull_of(const std::filesystem::path& mesh, const Paths& hulls,
+                                   const std::filesystem::path& folder) {
+  if (hulls.size() == 1) return hulls.front();
+  throw InputError(Defect::CannotRead,
+                   fmt::format("{}: {} has {}; give the two files{}", mesh.string(), folder.string(),
+                               hulls.empty() ? "no mesh file of this name"
+                                             : fmt::format("several mesh files of this name, {} and {}",
+                                                           hulls[0].filename().string(), hulls[1].filename().string()),
+                               hulls.empty() ? ", as for .phull files" : ""));
+}
+
 /// Each mesh of one folder by the hull of the same name in the other. A hull without a mesh is an error, too.
 int run_verify_folders(const VerifyOptions& options) {
-  std::map<std::string, std::filesystem::path> hulls;
-  const std::vector<std::filesystem::path> meshes = mesh_files({options.original});
-  for (const auto& hull : mesh_files({options.hull})) hulls[named_after("{name}", hull).string()] = hull;
+  const Paths meshes = mesh_files({options.original});
+  Paths hulls = mesh_files({options.hull});
+  const auto taken = taken_by_mesh(meshes, hulls);
   check_outputs(meshes, [&](const auto& mesh) {
     return NamedOutputs{{"--report", named_after(options.report, mesh)}};
   });
-  const int exit_code = run_each(
-      meshes, fmt::format("{:>11}  {:>9}  {:>8}  {}", "faces", "hull", "void", "enclosed"),
-      [&](const std::filesystem::path& mesh) {
-        const auto hull = hulls.extract(named_after("{name}", mesh).string());
-        if (hull.empty())
-          throw InputError(Defect::CannotRead,
-                           fmt::format("{}: {} has no mesh file of this name; give the two files, as for .phull files",
-                                       mesh.string(), options.hull.string()));
-        VerifyOptions of_mesh = options;
-        of_mesh.hull = hull.mapped(), of_mesh.original = mesh, of_mesh.report = named_after(options.report, mesh);
-        const Judged judged = judge(of_mesh);
-        const int code = judged.exit_code(of_mesh);
-        return MeshOutcome{code, {table_row(judged, code)}, code == kDone};
-      });
-  for (const auto& [name, hull] : hulls)
+  const int exit_code = run_each(meshes, fmt::format("{:>11}  {:>9}  {:>8}  {}", "faces", "hull", "void", "enclosed"),
+                                 [&](const std::filesystem::path& mesh) {
+                                   VerifyOptions of_mesh = options;
+                                   of_mesh.hull = only_hull_of(mesh, taken.at(mesh), options.hull);
+                                   of_mesh.original = mesh, of_mesh.report = named_after(options.report, mesh);
+                                   const Judged judged = judge(of_mesh);
+                                   const int code = judged.exit_code(of_mesh);
+                                   return MeshOutcome{code, {table_row(judged, code)}, code == kDone};
+                                 });
+  for (const auto& hull : hulls)
     tell_error(fmt::format("{}: {} has no mesh of this name", hull.string(), options.original.string()));
   return hulls.empty() ? exit_code : kBadInput;
 }

@@ -195,6 +195,16 @@ expect 3 "a mesh without a hull" $prohull verify pairs parts
 says err "a mesh without a hull" "parts/two.ply.gz: pairs has no mesh file of this name"
 says out "a hull that is the mesh" "2 of 3 meshes: as asked"
 rm parts/three.ply
+mkdir kinds
+$prohull sample box --faces 100 -o kinds/a.ply >/dev/null
+$prohull sample sphere --faces 100 -o kinds/a.obj >/dev/null
+$prohull build kinds -o kind_hulls/ --faces 60 >/dev/null
+expect 0 "meshes that differ in the suffix" $prohull verify kind_hulls kinds
+says out "meshes that differ in the suffix" "2 of 2 meshes: as asked"
+rm kinds/a.ply kinds/a.obj
+$prohull sample box --faces 100 -o kinds/a.off >/dev/null
+expect 3 "two hulls of one name" $prohull verify kind_hulls kinds
+says err "two hulls of one name" "kinds/a.off: kind_hulls has several mesh files of this name, a.obj and a.ply; give the two files"
 expect 2 "one report for two" $prohull verify pairs parts --report r.json
 says err "one report for two" "as in --report '{name}.json'"
 expect 0 "pieces of a folder" $prohull convex parts -o pieces/ --pieces 2
