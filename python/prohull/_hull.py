@@ -175,7 +175,7 @@ class Hull(Mesh):
 
     def _with_levels(self) -> _prohull.Levels:
         if self._levels is None:
-            raise InputError("the hull has no levels; build with levels=True and tight=False")
+            raise InputError("the hull has no levels; build with levels=True, and with neither tight nor a gap")
         return self._levels
 
     @property

@@ -154,6 +154,11 @@ def test_tight_hulls_have_less_void_and_no_levels(pony):
         tight.level(600)
 
 
+def test_why_a_hull_with_a_gap_has_no_levels(pony):
+    with pytest.raises(prohull.InputError, match="neither tight nor a gap"):
+        prohull.build(pony, target_faces=500, gap="1%").level(600)
+
+
 def test_levels_are_nested_views(hull, pony):
     assert hull.levels == range(300, len(pony.faces) + 1, 2)
     level = hull.level(1000)

@@ -853,6 +853,21 @@ TEST(EnclosingHull, KeepsABoundWithAsFewFacesAsTheHullWithoutIt) {
   EXPECT_TRUE(hull.notes.empty() || hull.notes.back().find("convex hull") == std::string::npos);
 }
 
+// What kept the bounds by itself had 114 and 166 faces.
+TEST(EnclosingHull, HasNotManyFacesWhereItKeepsABoundByFar) {
+  const TriangleMesh bracket = make_sample("bracket", 1000), pony = make_sample("pony", 1000);
+  const auto faces_within = [](const TriangleMesh& mesh, HullSide side, double share, double gap) {
+    const double diagonal = bounding_box(mesh).diagonal();
+    const EnclosingHull hull = enclosing_hull(
+        mesh, 20, {.hull = {.side = side}, .bounds = {.max_distance = share * diagonal}, .padding = gap * diagonal});
+    EXPECT_TRUE(hull.certified && hull.within_bounds && hull.target_reached);
+    EXPECT_EQ(hull.target_faces, 20U);
+    return hull.mesh.face_count();
+  };
+  EXPECT_LE(faces_within(bracket, HullSide::Outer, 0.12, 0), 50U);
+  EXPECT_LE(faces_within(pony, HullSide::Inner, 0.04, 0.003), 100U);
+}
+
 TEST(EnclosingHull, OfBoundsThatItKeepsWithoutThemIsTheSame) {
   const TriangleMesh asteroid = make_sample("asteroid", 1500);
   for (const TriangleMesh& mesh : {asteroid, without_a_face(asteroid)}) {
