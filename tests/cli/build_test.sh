@@ -1,10 +1,4 @@
-#!/bin/sh
-# Drives `prohull build`, and what verifies and extracts its hulls, as a user would: build_test.sh PROHULL DIVISOR
-# Each check names what it defends; the last line counts them.
-set -u
-prohull=$1 divisor=$2
-. "$(dirname "$0")/checks.sh"
-. "$(dirname "$0")/meshes.sh"
+# Drives `prohull build`, and what verifies and extracts its hulls, as a user would
 
 # --- the main job ---
 expect 0 "sample" $prohull sample asteroid -o rock.ply --faces $((20000 / divisor))
@@ -142,5 +136,3 @@ $prohull sample box -o box.ply --faces $((2000 / divisor)) >/dev/null
 expect 0 "the least face count" $prohull build box.ply --faces 4 --repair none -o least.ply
 says out "tells why it stopped" "no legal collapse is left"
 expect 1 "--strict" $prohull build box.ply --faces 4 --repair none -o least.ply --strict
-
-count_checks

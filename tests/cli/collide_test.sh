@@ -1,10 +1,4 @@
-#!/bin/sh
-# Drives `prohull collide`: collide_test.sh PROHULL DIVISOR
-# Each check names what it defends; the last line counts them.
-set -u
-prohull=$1 divisor=$2
-. "$(dirname "$0")/checks.sh"
-. "$(dirname "$0")/meshes.sh"
+# Drives `prohull collide`
 make_rock
 make_inner
 
@@ -42,5 +36,3 @@ expect 2 "collide: inner hulls, conservatively" $prohull collide inner.phull roc
 says err "collide: inner hulls, conservatively" "inner.phull: it holds inner hulls"
 expect 3 "collide: bad poses" $prohull collide octahedron.off octahedron.off --poses bad.csv
 says err "the line" "bad.csv: line 2"
-
-count_checks

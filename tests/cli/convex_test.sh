@@ -1,9 +1,4 @@
-#!/bin/sh
-# Drives `prohull convex`, and `prohull render` of what it writes, as a user would: convex_test.sh PROHULL
-# Each check names what it defends; the last line counts them.
-set -u
-prohull=$1
-. "$(dirname "$0")/checks.sh"
+# Drives `prohull convex`, and `prohull render` of what it writes, as a user would
 $prohull sample bracket --faces 300 -o part.stl >/dev/null
 convex="$prohull convex part.stl --pieces 4 --vertices 24"
 
@@ -251,5 +246,3 @@ code=$?
 is "Ctrl-C: exit code $code" test $code -eq 130
 says err "Ctrl-C" "interrupted"
 absent "interrupted* .interrupted*" "Ctrl-C"
-
-count_checks

@@ -1,9 +1,4 @@
-#!/bin/sh
-# Drives `prohull verify --union` as a user would: cover_test.sh PROHULL
-# Each check names what it defends; the last line counts them.
-set -u
-prohull=$1
-. "$(dirname "$0")/checks.sh"
+# Drives `prohull verify --union` as a user would
 
 # slab FILE FROM TO FIRST: a box [FROM, TO] x [0, 1] x [0, 1] as OBJ; FIRST is the number before its first vertex
 slab() {
@@ -147,5 +142,3 @@ expect 2 "--union and --side" $prohull verify --union both.obj part.obj --side i
 expect 2 "--union with one file" $prohull verify --union part.obj
 expect 0 "help" $prohull verify --help
 says out "help" "--union"
-
-count_checks

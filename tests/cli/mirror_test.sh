@@ -1,8 +1,4 @@
-#!/bin/sh
-# Hulls that are their own mirror image: mirror_test.sh PROHULL
-set -u
-prohull=$1
-. "$(dirname "$0")/checks.sh"
+# Hulls that are their own mirror image
 
 # A torus whose faces are mirrored at x = 0.
 awk 'function v(i, j) { return 1 + (i + 2 * n) % (2 * n) * m + j % m }
@@ -86,5 +82,3 @@ says err "with wraps" "a wrap is not symmetric"
 awk '/^v / { printf "v %.17g %.17g %.17g\n", $2 + 1 / 3, $3, $4; next } { print }' torus.obj >moved.obj
 expect 3 "moved" $prohull build moved.obj --faces 200 --mirror x -o none.obj
 says err "moved" "with the plane between them at x = 0"
-
-count_checks

@@ -1,9 +1,4 @@
-#!/bin/sh
-# Drives `prohull motion` as a user would: motion_test.sh PROHULL
-# Each check names what it defends; the last line counts them.
-set -u
-prohull=$1
-. "$(dirname "$0")/checks.sh"
+# Drives `prohull motion` as a user would
 # --- a base and a cart, cubes of side 1 m; the joint `slide` says how far they are apart ---
 cat >slide.urdf <<'URDF'
 <robot name="slide">
@@ -251,5 +246,3 @@ printf 'j1,j2\n0,0\n0.1,0.1\n' >line.csv
 expect 0 "a new line in a name" $prohull motion line.urdf line.csv --certificate line.phmotion
 says line.phmotion "a new line in a name: triangles" "triangles "
 is "a new line in a name: no line of its own" test "$(grep -c '^frame.stl' line.phmotion)" = 0
-
-count_checks

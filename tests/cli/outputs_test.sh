@@ -1,8 +1,4 @@
-#!/bin/sh
-# What becomes of the files that a command writes, and of what it quotes: outputs_test.sh PROHULL
-set -u
-prohull=$1
-. "$(dirname "$0")/checks.sh"
+# What becomes of the files that a command writes, and of what it quotes
 export TMPDIR="$work/temporary"
 mkdir temporary
 $prohull sample torus -o mesh.ply --faces 200 >/dev/null
@@ -239,5 +235,3 @@ code=$?
 is "Ctrl-C among meshes: exit code $code" test $code -eq 130
 says err "Ctrl-C among meshes" "interrupted; only what was finished before is written"
 is "Ctrl-C among meshes" test "$(ls -A among)" = mesh.ply
-
-count_checks

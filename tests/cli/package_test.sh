@@ -1,9 +1,4 @@
-#!/bin/sh
-# Makes packages with `prohull urdf --package`, moves them, and deletes what they were made of: package_test.sh PROHULL
-# Each check names what it defends; the last line counts them.
-set -u
-prohull=$1
-. "$(dirname "$0")/checks.sh"
+# Makes packages with `prohull urdf --package`, moves them, and deletes what they were made of
 
 # dae FILE IMAGE: a tetrahedron with an image
 dae() {
@@ -210,4 +205,3 @@ expect 0 "SDF that includes" $prohull urdf models/arm/arm.sdf -o hand_safe --pac
 rm -r models
 is "what is included is copied" grep -q skin hand_safe/meshes/visual/skin.png
 expect 0 "it stands alone" $prohull urdf hand_safe/arm.sdf --check --no-outside-files
-count_checks

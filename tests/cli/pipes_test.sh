@@ -1,10 +1,4 @@
-#!/bin/sh
-# How much commands print, and where: pipes_test.sh PROHULL DIVISOR
-# Each check names what it defends; the last line counts them.
-set -u
-prohull=$1 divisor=$2
-. "$(dirname "$0")/checks.sh"
-. "$(dirname "$0")/meshes.sh"
+# How much commands print, and where
 make_rock
 make_knot
 make_unit
@@ -68,5 +62,3 @@ for outputs in "build rock.ply -o x.txt" "build rock.ply -o x.ply --hierarchy x.
   expect 2 "unsuitable: $outputs" $prohull $outputs
   says err "unsuitable: $outputs" "; name the file ."
 done
-
-count_checks

@@ -1,10 +1,4 @@
-#!/bin/sh
-# Drives `prohull contains` and `prohull distance`: points_test.sh PROHULL DIVISOR
-# Each check names what it defends; the last line counts them.
-set -u
-prohull=$1 divisor=$2
-. "$(dirname "$0")/checks.sh"
-. "$(dirname "$0")/meshes.sh"
+# Drives `prohull contains` and `prohull distance`
 make_rock
 make_unit
 make_broken
@@ -58,5 +52,3 @@ says err "contains of a leaf" "leaf.off: the mesh is not closed"
 expect 3 "signed distance of an open mesh" $prohull distance open.off --points points.csv -o bad_points.csv --signed
 expect 0 "distance of an open mesh" $prohull distance open.off --points points.csv
 absent "bad_points.csv" "commands that ask points"
-
-count_checks

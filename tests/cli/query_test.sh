@@ -1,10 +1,4 @@
-#!/bin/sh
-# Drives `prohull query`: query_test.sh PROHULL DIVISOR
-# Each check names what it defends; the last line counts them.
-set -u
-prohull=$1 divisor=$2
-. "$(dirname "$0")/checks.sh"
-. "$(dirname "$0")/meshes.sh"
+# Drives `prohull query`
 engines="bvh kdop6 kdop14 kdop18 kdop26 kdop6-overlap kdop14-overlap kdop18-overlap kdop26-overlap brute"
 make_rock
 make_inner
@@ -122,5 +116,3 @@ expect 3 "hits to no folder" $prohull query unit.off --segments three.csv -o now
 expect 0 "help of query" $prohull query --help
 says out "help of query" "prohull query horse.ply"
 says out "help of query has engines" "kdop26-overlap"
-
-count_checks

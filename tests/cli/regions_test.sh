@@ -1,8 +1,4 @@
-#!/bin/sh
-# Regions of a mesh that a hull keeps, or stays near to: regions_test.sh PROHULL
-set -u
-prohull=$1
-. "$(dirname "$0")/checks.sh"
+# Regions of a mesh that a hull keeps, or stays near to
 
 expect 0 "sample" $prohull sample bracket -o bracket.obj --faces 1500
 cat >regions.yaml <<END
@@ -109,5 +105,3 @@ echo 'regions: [{faces: 0-99, keep: true}]' >numbers.yaml
 expect 3 "kept faces that STL cannot hold" $prohull build third.obj --faces 600 --tolerance numbers.yaml -o none.stl
 says err "kept faces that STL cannot hold" "write a .ply, .obj or .off file"
 expect 0 "kept faces that OBJ holds" $prohull build third.obj --faces 600 --tolerance numbers.yaml -o third_hull.obj
-
-count_checks

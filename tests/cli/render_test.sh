@@ -1,10 +1,4 @@
-#!/bin/sh
-# Drives `prohull render`: render_test.sh PROHULL DIVISOR
-# Each check names what it defends; the last line counts them.
-set -u
-prohull=$1 divisor=$2
-. "$(dirname "$0")/checks.sh"
-. "$(dirname "$0")/meshes.sh"
+# Drives `prohull render`
 make_rock
 
 # --- pictures ---
@@ -55,5 +49,3 @@ expect 2 "levels of a robot" $prohull render drawn/gripper.urdf --faces 100 -o n
 says err "levels of a robot" ".phull"
 absent "none.png" "no picture of a robot"
 expect 0 "from a pipe" sh -c "cat rock.ply | $prohull render /dev/stdin --size 16x16 -o pipe.png"
-
-count_checks

@@ -1,10 +1,4 @@
-#!/bin/sh
-# Drives `prohull repair`, and `prohull build` of meshes that are no solid: repair_test.sh PROHULL DIVISOR
-# Each check names what it defends; the last line counts them.
-set -u
-prohull=$1 divisor=$2
-. "$(dirname "$0")/checks.sh"
-. "$(dirname "$0")/meshes.sh"
+# Drives `prohull repair`, and `prohull build` of meshes that are no solid
 make_rock
 make_inner
 make_knot
@@ -111,5 +105,3 @@ says out "a hull that is inside out" "all faces of the hull look inwards"
 awk 'NR > 2 && NF == 3 { print $1 "e200", $2, $3; next } { print }' inside_out.off >far.off
 expect 3 "coordinates that overflow" $prohull verify tetrahedron.ply far.off
 says err "coordinates that overflow" "coordinates of the original reach 1e+200; beyond 1e+100 volumes overflow"
-
-count_checks

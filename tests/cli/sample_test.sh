@@ -1,10 +1,4 @@
-#!/bin/sh
-# Drives `prohull sample` of robots: sample_test.sh PROHULL
-# Each check names what it defends; the last line counts them.
-set -u
-prohull=$1 divisor=$2
-. "$(dirname "$0")/checks.sh"
-. "$(dirname "$0")/meshes.sh"
+# Drives `prohull sample` of robots
 
 # --- robots ---
 for robot in arm gripper mobile-base; do
@@ -22,5 +16,3 @@ says err "a robot to standard output" "name the folder, as in -o arm"
 expect 3 "a robot in no folder" $prohull sample arm -o nowhere/arm
 absent "robots-faces" "a robot that was refused"
 absent ".robots-*" "unfinished robots"
-
-count_checks

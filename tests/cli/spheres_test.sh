@@ -1,9 +1,4 @@
-#!/bin/sh
-# Drives `prohull spheres` as a user would: spheres_test.sh PROHULL
-# Each check names what it defends; the last line counts them.
-set -u
-prohull=$1
-. "$(dirname "$0")/checks.sh"
+# Drives `prohull spheres` as a user would
 $prohull sample bracket --faces 600 -o bracket.stl >/dev/null
 spheres="$prohull spheres bracket.stl --count 20"
 
@@ -117,5 +112,3 @@ for signal in INT TERM; do
   is "SIG$signal: exit code $code" test $code -ge 130
   absent "interrupted* .interrupted*" "SIG$signal"
 done
-
-count_checks

@@ -1,10 +1,4 @@
-#!/bin/sh
-# Lengths, scales and places of meshes, in options of several commands: units_test.sh PROHULL DIVISOR
-# Each check names what it defends; the last line counts them.
-set -u
-prohull=$1 divisor=$2
-. "$(dirname "$0")/checks.sh"
-. "$(dirname "$0")/meshes.sh"
+# Lengths, scales and places of meshes, in options of several commands
 make_rock
 make_inner
 make_unit
@@ -112,5 +106,3 @@ says out "a query in metres" "1 hit;"
 expect 2 "a scale of nothing" $prohull info unit.off --scale 0
 expect 2 "scale and unit" $prohull info unit.off --scale 2 --unit mm
 expect 2 "a .phull has its unit" $prohull info rock.phull --unit mm
-
-count_checks

@@ -1,10 +1,4 @@
-#!/bin/sh
-# Drives `prohull verify` with originals that are no solid: verify_test.sh PROHULL DIVISOR
-# Each check names what it defends; the last line counts them.
-set -u
-prohull=$1 divisor=$2
-. "$(dirname "$0")/checks.sh"
-. "$(dirname "$0")/meshes.sh"
+# Drives `prohull verify` with originals that are no solid
 make_rock
 make_inner
 
@@ -37,5 +31,3 @@ cube 0 1 >cube.obj
 cube -0.12345678951 2 >around.obj
 expect 0 "a gap of many digits" $prohull verify around.obj cube.obj --gap 0.12345678951
 says out "a gap of many digits" "keeps a gap of 0.123456789, exactly"
-
-count_checks

@@ -1,7 +1,4 @@
-#!/bin/sh
-# What `prohull view` refuses, and what it writes: view_test.sh PROHULL. Pages are opened in a browser by tests/view.
-prohull=$1
-. "$(dirname "$0")/checks.sh"
+# What `prohull view` refuses, and what it writes. Pages are opened in a browser by tests/view.
 
 expect 0 "sample" "$prohull" sample box -o box.stl --faces 100
 if ! "$prohull" view box.stl -o page.html >out 2>err && grep -q "built without the page" err; then
@@ -53,5 +50,3 @@ says out "a robot: once more" "up to date"
 expect 0 "a robot without pictures" $robot -o safe --no-pictures
 absent safe/view.html "a robot without pictures"
 is "a robot without pictures: no link" sh -c '! grep -q view.html safe/report.html'
-
-count_checks

@@ -1,8 +1,4 @@
-#!/bin/sh
-# Small meshes of which summaries said what was not true: words_test.sh PROHULL. Each check names the sentence.
-set -u
-prohull=$1
-. "$(dirname "$0")/checks.sh"
+# Small meshes of which summaries said what was not true. Each check names the sentence.
 
 corners='v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n'
 bottom='f 1 3 2\nf 2 3 4\n'
@@ -551,4 +547,3 @@ expect 2 "help of no command" $prohull help nope
 says err "help of no command" "\`prohull help\` shows all commands"
 expect 0 "help of build" $prohull help build
 says_not out "help of build: options of --all" "--recenter"
-count_checks
