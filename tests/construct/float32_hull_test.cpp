@@ -7,6 +7,7 @@
 #include <string>
 
 #include "geometry/float32.h"
+#include "input_error.h"
 #include "meshes.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
@@ -141,12 +142,7 @@ TEST(Float32Hull, RefusesWhatIsTooFarFromTheOriginForItsSize) {
 TEST(Float32Hull, RefusesWhatAFloat32CannotHold) {
   const double largest = std::numeric_limits<float>::max();
   const auto defect_of = [](const TriangleMesh& mesh) {
-    try {
-      with_float32_coordinates(mesh, HullSide::Outer);
-    } catch (const InputError& error) {
-      return error.defect();
-    }
-    return Defect::CannotRead;
+    return error_of([&] { with_float32_coordinates(mesh, HullSide::Outer); }).defect();
   };
   EXPECT_EQ(defect_of(scaled(octahedron(), 1e39)), Defect::NonFiniteCoordinate);
   EXPECT_EQ(defect_of(scaled(octahedron(), std::nextafter(largest, INFINITY))), Defect::NonFiniteCoordinate);

@@ -9,6 +9,7 @@
 
 #include "effort.h"
 #include "geometry/float32.h"
+#include "input_error.h"
 #include "prohull/detail/replay.h"
 #include "prohull/detail/symmetry.h"
 #include "prohull/enclosure.h"
@@ -208,12 +209,7 @@ TEST(Mirror, IsTheSameForAnyNumberOfThreads) {
 }
 
 std::string refusal_of(const TriangleMesh& mesh, const HullOptions& options) {
-  try {
-    build_hull(mesh, options);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+  return error_of([&] { build_hull(mesh, options); }).what();
 }
 
 TEST(Mirror, SaysWhereAMeshIsNotSymmetric) {

@@ -11,6 +11,7 @@
 
 #include "geometry/float32.h"
 #include "geometry/predicates.h"
+#include "input_error.h"
 #include "meshes.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
@@ -204,13 +205,7 @@ TEST(Sweep, IsHardlyLargerThanWhatIsPassed) {
 }
 
 Defect defect_of(const TriangleMesh& mesh, const std::vector<RigidMotion>& motions, const SweepOptions& options = {}) {
-  try {
-    sweep(mesh, motions, options);
-  } catch (const InputError& error) {
-    return error.defect();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return {};
+  return error_of([&] { sweep(mesh, motions, options); }).defect();
 }
 
 TEST(Sweep, RefusesWhatIsNoMotion) {

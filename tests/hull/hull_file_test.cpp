@@ -13,6 +13,7 @@
 
 #include "effort.h"
 #include "hull/parts.h"
+#include "io/file.h"
 #include "meshes.h"
 #include "prohull/error.h"
 #include "prohull/hull_builder.h"
@@ -44,15 +45,10 @@ class TemporaryFile {
   std::filesystem::path folder_;
 };
 
-std::string read(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 std::string file_of(const ProgressiveHull& hull) {
   const TemporaryFile file;
   save_hull(file.path(), hull);
-  return read(file.path());
+  return read_file(file.path());
 }
 
 std::string little_endian(std::uint64_t value, int bytes) {
@@ -111,7 +107,7 @@ TEST(HullFile, BringsBackEveryBit) {
       save_hull(file.path(), hull);
       EXPECT_TRUE(is_hull_file(file.path()));
       EXPECT_EQ(load_hull(file.path()), hull);
-      EXPECT_EQ(load_hull(read(file.path()), "x"), hull);
+      EXPECT_EQ(load_hull(read_file(file.path()), "x"), hull);
     }
 }
 

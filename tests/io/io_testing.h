@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "input_error.h"
 #include "io/file.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
@@ -61,13 +62,9 @@ inline std::array<VertexId, 3> corners(std::uint32_t a, std::uint32_t b, std::ui
 
 template <class Action>
 void expect_input_error(Action action, Defect defect, std::string_view message) {
-  try {
-    action();
-    ADD_FAILURE() << "no error, expected: " << message;
-  } catch (const InputError& error) {
-    EXPECT_EQ(std::string_view(error.what()), message);
-    EXPECT_EQ(error.defect(), defect) << error.what();
-  }
+  const InputError error = error_of(action);
+  EXPECT_EQ(std::string_view(error.what()), message);
+  EXPECT_EQ(error.defect(), defect) << error.what();
 }
 
 inline void expect_refused(std::string_view content, const char* name, std::string_view message,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "effort.h"
+#include "input_error.h"
 #include "meshes.h"
 #include "prohull/error.h"
 #include "prohull/hull_builder.h"
@@ -163,12 +164,8 @@ TEST(Hits, NameTheFirstQueryThatIsNotFinite) {
   std::vector<Segment> segments(10, {{0, 0, 0}, {1, 1, 1}});
   segments[7].b.z = std::nan("");
   segments[8].b.z = std::nan("");
-  try {
-    find_hits(QueryIndex(octahedron()), segments, HitMode::First);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("query 7"), std::string::npos) << error.what();
-  }
+  const std::string refusal = error_of([&] { find_hits(QueryIndex(octahedron()), segments, HitMode::First); }).what();
+  EXPECT_NE(refusal.find("query 7"), std::string::npos) << refusal;
 }
 
 TEST(Hits, CanBeCancelled) {

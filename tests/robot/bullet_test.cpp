@@ -1,11 +1,11 @@
 #include <btBulletDynamicsCommon.h>
 #include <fmt/format.h>
 
-#include <fstream>
 #include <memory>
 #include <regex>
 #include <vector>
 
+#include "io/file.h"
 #include "prohull/mesh_io.h"
 #include "prohull/mesh_query.h"
 #include "prohull/sample.h"
@@ -26,8 +26,7 @@ constexpr double kStep = 1.0 / 400, kTime = 4;
 constexpr int kBallGroup = 1, kPartGroup = 2;  // balls pass through each other
 
 std::vector<std::unique_ptr<btConvexHullShape>> pieces_of(const fs::path& urdf) {
-  std::ifstream stream(urdf);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string text = read_file(urdf);
   const std::regex named("filename=\"([^\"]*)\"");
   std::vector<std::unique_ptr<btConvexHullShape>> pieces;
   for (std::sregex_iterator at(text.begin(), text.end(), named), end; at != end; ++at) {

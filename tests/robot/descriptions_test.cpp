@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <fstream>
 #include <iterator>
 #include <map>
 
+#include "io/file.h"
 #include "robot/robot_testing.h"
 
 namespace prohull::robot {
@@ -26,11 +26,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kReasons{
     {"unknown type", "a type of joint that MJCF does not have"},
     {"", "text that is no XML, a link that does not exist"},
 }};
-
-std::string text_of(const fs::path& path) {
-  std::ifstream stream(path);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// Descriptions that developers have, without their meshes; a file is refused only for what its author would accept.
 TEST(Descriptions, OpenOrAreRefusedForTheReasonsInTheDocs) {
@@ -53,7 +48,7 @@ TEST(Descriptions, OpenOrAreRefusedForTheReasonsInTheDocs) {
       ++refused[reason->second];
     }
   }
-  const std::string docs = text_of(PROHULL_ROBOTS_GUIDE);
+  const std::string docs = read_file(PROHULL_ROBOTS_GUIDE);
   EXPECT_TRUE(has(docs, fmt::format("| opened | {},{:03} |", opened / 1000, opened % 1000))) << opened;
   for (const auto& [words, count] : refused)
     EXPECT_TRUE(has(docs, fmt::format("| {} | {} |", words, count))) << words << ": " << count;

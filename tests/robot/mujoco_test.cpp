@@ -5,6 +5,7 @@
 #include <fstream>
 #include <memory>
 
+#include "io/file.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 #include "prohull/mesh_query.h"
@@ -41,10 +42,7 @@ class InMujoco : public testing::Test {
         fmt::format("cd '{}' && '{}' {} >out 2>&1", folder_.path().string(), PROHULL_PROGRAM, arguments);
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
   }
-  std::string text_of(const char* name) const {
-    std::ifstream stream(folder_ / name);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
+  std::string text_of(const char* name) const { return read_file(folder_ / name); }
 
   TemporaryFolder folder_;
 };

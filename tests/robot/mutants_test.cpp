@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <random>
 
 #include "effort.h"
+#include "io/file.h"
 #include "meshes.h"
 #include "random.h"
 #include "readers.h"
@@ -104,8 +104,7 @@ TEST(Mutants, OfKeptHulls) {
   const std::string key(32, '1');
   HullCache(folder.path()).keep(key, hulls);
   ASSERT_TRUE(HullCache(folder.path()).find(key));
-  std::ifstream in(folder.path() / (key + ".hulls"), std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(in), {});
+  const std::string bytes = read_file(folder.path() / (key + ".hulls"));
   take_mutants(bytes.substr(32), [&](const std::string& text) { take_kept_hulls(text, folder.path()); });
 }
 

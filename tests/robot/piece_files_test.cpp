@@ -1,9 +1,9 @@
 #include "robot/files/piece_files.h"
 
-#include <fstream>
 #include <iterator>
 #include <numbers>
 
+#include "io/file.h"
 #include "random.h"
 #include "robot/files/robot_file.h"
 #include "robot/transform.h"
@@ -36,11 +36,6 @@ void expect_box(const Shape& shape, const OrientedBox& box) {
     for (int axis = 0; axis < 3; ++axis)
       EXPECT_NEAR(shape.origin.rotation[row][axis], box.axes[static_cast<std::size_t>(axis)][static_cast<int>(row)],
                   1e-14);
-}
-
-std::string bytes_of_file(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 TEST(PieceNames, SortInTheirOrder) {
@@ -146,7 +141,7 @@ TEST(PieceFiles, AreReadByUrdfdom) {
   write_file(folder / "pieces.urdf", urdf_of(kHostile, pieces));
   const std::string log = (folder / "log").string();
   EXPECT_EQ(std::system((program + " " + (folder / "pieces.urdf").string() + " > " + log + " 2>&1").c_str()), 0)
-      << bytes_of_file(log);
+      << read_file(log);
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 
 #include <array>
 #include <chrono>
-#include <fstream>
 #include <iterator>
 
+#include "io/file.h"
 #include "robot/files/xacro.h"
 #include "robot/robot_testing.h"
 
@@ -172,15 +172,10 @@ TEST_P(KnownRobot, IsRead) {
   EXPECT_EQ(missing, GetParam().missing) << why_not;
 }
 
-std::string bytes_of_file(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 TEST_P(KnownRobot, IsWrittenAsUrdfdomReadsIt) {
   if (!fs::exists(GetParam().path)) GTEST_SKIP() << GetParam().path << " was not written: it is not here";
   const RobotFile file = read();
-  EXPECT_EQ(with_collisions(file, {}, fs::path(GetParam().path).parent_path()), bytes_of_file(GetParam().path));
+  EXPECT_EQ(with_collisions(file, {}, fs::path(GetParam().path).parent_path()), read_file(GetParam().path));
   std::vector<NewCollision> collisions;
   for (std::size_t link = 0; link < file.robot.links.size(); ++link)
     if (!file.robot.links[link].visual.empty())
@@ -198,7 +193,7 @@ TEST_P(KnownRobot, IsWrittenAsUrdfdomReadsIt) {
   if (program.empty()) GTEST_SKIP() << "check_urdf (liburdfdom-tools) was not found: it did not read the result";
   const std::string log = (folder / "log").string();
   EXPECT_EQ(std::system((program + " " + (folder / "robot.urdf").string() + " > " + log + " 2>&1").c_str()), 0)
-      << bytes_of_file(log);
+      << read_file(log);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <map>
 
+#include "input_error.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 
@@ -113,13 +114,9 @@ TEST(SampleRobots, AreListed) {
 }
 
 TEST(SampleRobots, RefuseUnknownNames) {
-  try {
-    make_sample_robot("horse");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.defect(), Defect::InvalidOption);
-    EXPECT_STREQ(error.what(), "no sample robot is called horse; there are: arm, gripper, mobile-base");
-  }
+  const InputError error = error_of([] { make_sample_robot("horse"); });
+  EXPECT_EQ(error.defect(), Defect::InvalidOption);
+  EXPECT_STREQ(error.what(), "no sample robot is called horse; there are: arm, gripper, mobile-base");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <set>
 #include <thread>
 
+#include "input_error.h"
 #include "prohull/error.h"
 
 namespace prohull::robot {
@@ -78,12 +79,7 @@ TEST(SideBySide, ThrowsTheExceptionOfTheFirstName) {
       if (i == 1) std::this_thread::sleep_for(std::chrono::milliseconds(20));  // the next one may throw before it
       if (i > 0) throw InputError(Defect::EmptyMesh, kNames[i]);
     };
-    try {
-      side_by_side(kNames, threads, {}, work);
-      FAIL();
-    } catch (const InputError& error) {
-      EXPECT_STREQ(error.what(), "arm");
-    }
+    EXPECT_STREQ(error_of([&] { side_by_side(kNames, threads, {}, work); }).what(), "arm");
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "input_error.h"
 #include "prohull/error.h"
 #include "robot/motion/planner_files.h"
 #include "robot_of_joints.h"
@@ -14,12 +15,7 @@ namespace prohull::robot {
 namespace {
 
 std::string refusal(const std::string& text) {
-  try {
-    read_sphere_file(text, "spheres.yaml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return error_of([&] { read_sphere_file(text, "spheres.yaml"); }).what();
 }
 
 void expect_read_back(const std::vector<LinkBalls>& links) {
@@ -87,12 +83,8 @@ TEST(SphereJson, RefusesAnythingElse) {
        {"", "{", "[]", "{}", R"({"spheres": 1})", R"({"spheres": [1]})", R"({"spheres": [{}]})",
         R"({"spheres": [{"center": [0, 0], "radius": 1}]})", R"({"spheres": [{"center": [0, 0, "x"], "radius": 1}]})",
         R"({"spheres": [{"center": [0, 0, 0]}]})", R"({"spheres": [{"center": [0, 0, 1e999], "radius": 1}]})"}) {
-    try {
-      read_sphere_json(text, "a.json");
-      ADD_FAILURE() << text;
-    } catch (const InputError& error) {
-      EXPECT_TRUE(std::string(error.what()).starts_with("a.json: ")) << error.what();
-    }
+    const std::string refusal = error_of([&] { read_sphere_json(text, "a.json"); }).what();
+    EXPECT_TRUE(refusal.starts_with("a.json: ")) << text << ": " << refusal;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <set>
 
+#include "io/file.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/sample.h"
@@ -14,11 +15,6 @@
 
 namespace prohull::robot {
 namespace {
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 void write_all(const std::vector<OutputFile>& files, const std::filesystem::path& folder) {
   for (const OutputFile& file : files) {
@@ -78,16 +74,16 @@ TEST_F(WriteRobotTest, WritesARobotForEachNumberOfFaces) {
     const TriangleMesh hull = read_mesh(shape.mesh()->path);
     EXPECT_LE(hull.face_count(), faces);
     EXPECT_TRUE(verify_cover(mesh_triangles(*again.robot.links[0].visual[0].mesh()), hull).encloses);
-    EXPECT_NE(content(out / name).find("<!-- kept as it is -->"), std::string::npos);
+    EXPECT_NE(read_file(out / name).find("<!-- kept as it is -->"), std::string::npos);
   }
-  EXPECT_EQ(content(folder_.path() / "arm.urdf"), kArm);
+  EXPECT_EQ(read_file(folder_.path() / "arm.urdf"), kArm);
 }
 
 TEST_F(WriteRobotTest, WritesAPackageThatIsFound) {
   const std::filesystem::path out = folder_.path() / "arm_safe";
   how_.package = "arm_safe";
   write_all(output_files(file_, hulls_, out, how_).files, out);
-  EXPECT_NE(content(out / "package.xml").find("<name>arm_safe</name>"), std::string::npos);
+  EXPECT_NE(read_file(out / "package.xml").find("<name>arm_safe</name>"), std::string::npos);
   const RobotFile again = read_robot(out / "arm.urdf");
   EXPECT_EQ(again.robot.links[0].collision[0].mesh()->uri, "package://arm_safe/meshes/collision/a_b.stl");
   EXPECT_FALSE(again.robot.links[0].collision[0].mesh()->path.empty());
@@ -162,7 +158,7 @@ TEST_F(WriteRobotTest, WritesSpheresIntoTheRobotAndIntoAFileOfTheirOwn) {
     EXPECT_EQ(std::get<SphereForm>(again.robot.links[0].collision[i].form).radius, ball.radius);
     EXPECT_EQ(again.robot.links[0].collision[i].origin, Pose{.translation = ball.center});
   }
-  const auto listed = read_sphere_file(content(out / "arm_spheres.yaml"), "arm_spheres.yaml");
+  const auto listed = read_sphere_file(read_file(out / "arm_spheres.yaml"), "arm_spheres.yaml");
   ASSERT_EQ(listed.size(), 1U);
   EXPECT_EQ(listed[0].link, "a/b");
   EXPECT_EQ(listed[0].balls, hulls_[0].hulls[0].balls);
@@ -178,7 +174,7 @@ TEST_F(WriteRobotTest, WritesSpheresThatALinkHadBeforeToo) {
   how_.faces = {500};
   const std::filesystem::path out = folder_.path() / "out";
   write_all(output_files(ball, hulls, out, how_).files, out);
-  const auto listed = read_sphere_file(content(out / "ball_spheres.yaml"), "ball_spheres.yaml");
+  const auto listed = read_sphere_file(read_file(out / "ball_spheres.yaml"), "ball_spheres.yaml");
   ASSERT_EQ(listed.size(), 1U);
   EXPECT_EQ(listed[0].balls, (std::vector<Ball>{{{1, 2, 3}, 0.5}}));
 }

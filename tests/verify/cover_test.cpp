@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "input_error.h"
 #include "meshes.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
@@ -211,17 +212,12 @@ TEST(Cover, HoldsForHugeAndTinyCoordinates) {
 
 TEST(Cover, RefusesWhatItCannotDecide) {
   const auto defect_of = [](const TriangleMesh& triangles, const TriangleMesh& outer) {
-    try {
-      verify_cover(triangles, outer);
-    } catch (const InputError& error) {
-      return error.defect();
-    }
-    return Defect::CannotRead;
+    return error_of([&] { verify_cover(triangles, outer); }).defect();
   };
   TriangleMesh open = kUnitBox;
   open.triangles.pop_back();
   EXPECT_EQ(defect_of(kUnitBox, open), Defect::OpenEdge);
-  EXPECT_EQ(defect_of(open, kUnitBox), Defect::CannotRead) << "fine";
+  EXPECT_NO_THROW(verify_cover(open, kUnitBox));
   EXPECT_EQ(defect_of({}, kUnitBox), Defect::EmptyMesh);
   EXPECT_EQ(defect_of(kUnitBox, {}), Defect::EmptyMesh);
   EXPECT_EQ(defect_of(point({0, 0, std::numeric_limits<double>::quiet_NaN()}), kUnitBox), Defect::NonFiniteCoordinate);

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "input_error.h"
 #include "meshes.h"
 #include "prohull/error.h"
 
@@ -216,13 +217,9 @@ TEST(Enclosure, RefusesWhatIsNotClosed) {
   TriangleMesh bad = kUnitBox;
   bad.positions[VertexId(3)].y = std::numeric_limits<double>::quiet_NaN();
   const auto defect_of = [](const TriangleMesh& mesh) {
-    try {
-      verify_enclosure(mesh, kUnitBox);
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("inner"), std::string::npos) << error.what();
-      return error.defect();
-    }
-    return Defect::CannotRead;
+    const InputError error = error_of([&] { verify_enclosure(mesh, kUnitBox); });
+    EXPECT_NE(std::string(error.what()).find("inner"), std::string::npos) << error.what();
+    return error.defect();
   };
   EXPECT_EQ(defect_of(open), Defect::OpenEdge);
   EXPECT_EQ(defect_of(twisted), Defect::InconsistentOrientation);

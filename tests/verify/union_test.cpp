@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "effort.h"
+#include "input_error.h"
 #include "progress.h"
 #include "prohull/convex_hull.h"
 #include "prohull/error.h"
@@ -23,14 +24,7 @@ using Pieces = std::vector<TriangleMesh>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-std::string message_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
+std::string message_of(const std::function<void()>& call) { return error_of(call).what(); }
 
 /// The small cubes of a cube of side 3, but for one.
 Pieces small_cubes(int left_out = -1) {
