@@ -9,6 +9,7 @@
 #include "construct/star.h"
 #include "geometry/predicates.h"
 #include "mesh/half_edge_mesh.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/error.h"
 
 namespace prohull {
@@ -20,7 +21,7 @@ HalfEdgeMesh mesh_of(const ProgressiveHull& hull, std::size_t i) {
 }
 
 void require(bool holds, const char* what) {
-  if (!holds) throw InputError(Defect::InvalidOption, what);
+  if (!holds) refuse(what);
 }
 
 void require_collapses(const ProgressiveHull& hull, std::size_t count) {

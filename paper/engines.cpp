@@ -9,7 +9,7 @@
 #include "paper/kdop_index.h"
 #include "paper/refinement_engine.h"
 #include "paper/walk_engine.h"
-#include "prohull/error.h"
+#include "prohull/detail/refuse.h"
 #include "query/engine.h"
 
 namespace prohull {
@@ -21,8 +21,7 @@ bool refines(std::string_view engine) { return engine == kRefinement || engine =
 
 Engine of_library(std::string_view engine) {
   if (const auto known = value_of(engine_names(), engine)) return *known;
-  throw InputError(Defect::InvalidOption,
-                   fmt::format("engine='{}': expected one of {}", engine, fmt::join(all_engine_names(), ", ")));
+  refuse(fmt::format("engine='{}': expected one of {}", engine, fmt::join(all_engine_names(), ", ")));
 }
 
 bool is_kdop(std::string_view engine) { return std::ranges::count(kdop_names(), engine) > 0; }
@@ -49,14 +48,13 @@ bool may_miss_hits(std::string_view engine, bool with_inner) {
 }
 
 QueryIndex index_called(std::string_view engine, TriangleMesh mesh) {
-  if (refines(engine) || engine == kWalk)
-    throw InputError(Defect::InvalidOption, "this engine needs a progressive hull, which a mesh is not");
+  if (refines(engine) || engine == kWalk) refuse("this engine needs a progressive hull, which a mesh is not");
   if (is_kdop(engine)) return kdop_index(std::move(mesh), engine);
   return QueryIndex(std::move(mesh), of_library(engine));
 }
 
 QueryIndex index_called(std::string_view engine, const ProgressiveHull& hull, const RefinementOptions& options) {
-  if (options.queries_per_roll_back < 1) throw InputError(Defect::InvalidOption, "queries per roll back: at least 1");
+  if (options.queries_per_roll_back < 1) refuse("queries per roll back: at least 1");
   if (refines(engine)) {
     const bool is_published = engine == kPaperRefinement;
     return peer_index(hull.original(), is_published ? kPaperRefinement : kRefinement, [&](const TriangleMesh&) {
@@ -64,7 +62,7 @@ QueryIndex index_called(std::string_view engine, const ProgressiveHull& hull, co
     });
   }
   if (engine == kWalk) {
-    if (hull.side() != HullSide::Outer) throw InputError(Defect::InvalidOption, "the engine walk needs an outer hull");
+    if (hull.side() != HullSide::Outer) refuse("the engine walk needs an outer hull");
     return peer_index(hull.original(), kWalk,
                       [&](const TriangleMesh& mesh) { return make_walk_engine(mesh, hull, nullptr); });
   }

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "paper/kdop.h"
-#include "prohull/error.h"
+#include "prohull/detail/refuse.h"
 #include "query/engine.h"
 
 namespace prohull {
@@ -212,8 +212,7 @@ std::span<const std::string_view> kdop_names() { return kNames; }
 QueryIndex kdop_index(TriangleMesh mesh, std::string_view name) {
   const auto place = static_cast<std::size_t>(std::ranges::find(kNames, name) - kNames.begin());
   if (place == kNames.size())
-    throw InputError(Defect::InvalidOption,
-                     fmt::format("there are no k-DOP trees {}; expected one of {}", name, fmt::join(kNames, ", ")));
+    refuse(fmt::format("there are no k-DOP trees {}; expected one of {}", name, fmt::join(kNames, ", ")));
   return peer_index(std::move(mesh), kNames[place], kMakers[place]);
 }
 

@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "geometry/bvh.h"
-#include "geometry/triangle_contact.h"
+#include "geometry/triangle_intersection.h"
 #include "paper/balls.h"
 #include "paper/box_line.h"
 #include "paper/line_sieve.h"
 #include "paper/refined_hull.h"
-#include "prohull/error.h"
+#include "prohull/detail/refuse.h"
 
 namespace prohull {
 namespace {
@@ -195,9 +195,9 @@ class RefinementWorker final : public QueryWorker {
 
   int winding(const TriangleMesh& mesh, const DirectedLine& line) override {
     if (shared_.refine == Refine::WhereFacesMeet)
-      throw InputError(Defect::InvalidOption,
-                       "the engine paper-refinement may miss crossings, so that it cannot tell what is inside; take "
-                       "another one, such as auto");
+      refuse(
+          "the engine paper-refinement may miss crossings, so that it cannot tell what is inside; take "
+          "another one, such as auto");
     return QueryWorker::winding(mesh, line);
   }
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "render/tangents.h"
+#include "render/normals.h"
 
 namespace prohull::render {
 namespace {

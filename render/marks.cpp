@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "prohull/sample.h"
-#include "render/tangents.h"
+#include "render/normals.h"
 
 namespace prohull::render {
 

@@ -1,6 +1,5 @@
 #include "render/normals.h"
 
-#include <cmath>
 #include <vector>
 
 namespace prohull::render {

@@ -1,4 +1,4 @@
-#include "prohull/error.h"
+#include "prohull/detail/refuse.h"
 #include "robot/link_triangles.h"
 
 namespace prohull::robot {
@@ -30,7 +30,7 @@ std::optional<CurvedForm> curved_form(const Form& form, const Pose& pose) {
 TriangleMesh form_mesh(const Form& form, Curved curved, std::size_t segments) {
   if (const auto* box = std::get_if<BoxForm>(&form)) return box_mesh(box->size);
   if (const auto curve = curved_form(form)) return curve->mesh(curved, segments);
-  throw InputError(Defect::InvalidOption, "only a box, sphere, cylinder or capsule has a mesh of its own");
+  refuse("only a box, sphere, cylinder or capsule has a mesh of its own");
 }
 
 }  // namespace prohull::robot

@@ -13,7 +13,7 @@ macro(room name)
   set(may_${name} ${name} ${room_MAY})
 endmacro()
 
-room(base      OWNS detail/extension detail/rounded detail/scramble error detail/names detail/stopwatch detail/text progress)
+room(base      OWNS detail/extension detail/refuse detail/rounded detail/scramble error detail/names detail/stopwatch detail/text progress)
 room(geometry  OWNS geometry detail/shapes                                                     MAY base)
 room(parallel  OWNS detail/progress_meter detail/threads                         MAY base)
 room(mesh      OWNS detail/disjoint_sets detail/finite detail/ids length triangle_mesh detail/vertex_split mesh_report detail/mesh_quality detail/mesh_marks regions detail/symmetry MAY geometry base)

@@ -4,7 +4,6 @@
 
 #include "prohull/progressive_hull.h"
 #include "view/blocks.h"
-#include "view/grid.h"
 
 namespace prohull::view {
 

@@ -7,13 +7,14 @@
 #include <cmath>
 
 #include "prohull/detail/finite.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/detail/text.h"
 #include "prohull/enclosure.h"
 #include "prohull/error.h"
 #include "prohull/mesh_query.h"
 #include "robot/json.h"
+#include "view/blocks.h"
 #include "view/facts.h"
-#include "view/grid.h"
 #include "view/heat.h"
 #include "view/levels.h"
 #include "view/motion.h"
@@ -282,8 +283,7 @@ class Writer {
 }  // namespace
 
 Scene scene_of(const std::vector<Shown>& shown, const std::optional<Original>& original, const PageOptions& options) {
-  if (shown.size() > kMostShown)
-    throw InputError(Defect::InvalidOption, fmt::format("a page shows {} hulls at most", kMostShown));
+  if (shown.size() > kMostShown) refuse(fmt::format("a page shows {} hulls at most", kMostShown));
   return Writer(shown, original, options).scene();
 }
 

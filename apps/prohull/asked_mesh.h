@@ -8,12 +8,30 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "inputs.h"
 #include "prohull/mesh_query.h"
-#include "solid_notes.h"
+#include "prohull/triangle_mesh.h"
 
 namespace prohull::cli {
+
+/// What is said of a mesh as a solid; sentences, which may be empty.
+struct SolidNotes {
+  std::string turned;  ///< what was inside out
+  std::string open;    ///< that the mesh is not closed, and has no inside
+
+  /// Makes the mesh, which is closed, the solid that it stands for (outward_solid).
+  static SolidNotes turning(TriangleMesh& closed, const std::filesystem::path& path);
+
+  static SolidNotes not_closed(const std::filesystem::path& path);
+
+  bool is_inside_out() const { return !turned.empty(); }
+  std::vector<std::string> all() const;
+
+  /// As lines of the summary. With --quiet, what has no inside is told on standard error.
+  void say_them() const;
+};
 
 /// The mesh that queries are about: that of a mesh file, or the finest level of a .phull file.
 class AskedMesh {

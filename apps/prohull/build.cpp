@@ -286,31 +286,31 @@ void group_options(CLI::App& command) {
 }  // namespace
 
 void add_build(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<BuildOptions>();
-  EnclosingOptions& enclosing = options->enclosing;
-  HullOptions& hull = enclosing.hull;
-  hull.relax_guards = true;
-  CLI::App& command = *app.add_subcommand(
-      "build",
+  const auto [command, options] = add_command<BuildOptions>(
+      app, run, "build",
       "Builds a hull of a mesh: a mesh of fewer faces that provably encloses it. Any triangles will do; what is not "
       "closed is repaired or wrapped. Building repeats one step, the collapse: the two ends of an edge become one new "
-      "vertex, and two faces vanish. The file that was written is read again and certified by exact arithmetic.");
-  add_mesh_inputs(command, options->meshes, options->input, "Mesh to build a hull of.");
+      "vertex, and two faces vanish. The file that was written is read again and certified by exact arithmetic.",
+      run_build);
+  EnclosingOptions& enclosing = options.enclosing;
+  HullOptions& hull = enclosing.hull;
+  hull.relax_guards = true;
+  add_mesh_inputs(command, options.meshes, options.input, "Mesh to build a hull of.");
   CLI::Option* const recenter = command.add_flag(
-      "--recenter", options->recenter,
+      "--recenter", options.recenter,
       "Subtract a round offset near the middle of the mesh from all coordinates, where the mesh is far from the "
       "origin. STL and GLB files keep too few digits there. The offset stands in the summary and in the report; add it "
       "to place the hull, and give it to `prohull verify --offset`.");
-  add_mesh_output_options(command, options->out, options->out_format,
+  add_mesh_output_options(command, options.out, options.out_format,
                           "the hull, in whose name {faces} becomes the number of faces asked for, and {name} that of "
                           "the mesh's file; or a folder, whose name ends in /");
   add_number(
-      command, "--faces", options->faces, {4, 1e9},
+      command, "--faces", options.faces, {4, 1e9},
       "Number of faces that the hull should have, at least 4. Several numbers, as in 1000,100, make a hull each.")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("N[,N...]");
-  add_bounds(command, *options);
+  add_bounds(command, options);
   add_choice(command, "--side", hull.side, hull_side_names(),
              "Side of the mesh's surface on which the hull lies: an outer hull encloses the mesh, an inner hull is "
              "enclosed by it.");
@@ -320,13 +320,13 @@ void add_build(CLI::App& app, Run& run) {
       "as long to build: 1.5 to 14 times at 100 faces. It does not intersect itself unless the mesh does, as it is or "
       "with its openings closed; the summary counts the pairs of faces.");
   CLI::Option* const gap =
-      add_length(command, "--gap", options->gap,
+      add_length(command, "--gap", options.gap,
                  "Least distance between hull and mesh. It is proven. All points within this distance of the mesh are "
                  "inside of an outer hull. An inner hull leaves out what is thinner than two gaps. --max-distance must "
                  "be greater. Use --tight for the least void.");
   CLI::Option* const tolerance =
       add_value(
-          command, "--tolerance", options->tolerance, "FILE",
+          command, "--tolerance", options.tolerance, "FILE",
           "YAML file of regions of the mesh: for each a box, color, group, or numbers of faces or vertices, and how "
           "far its faces may be from the hull, or that they are kept as they are. See docs/guides/regions.md.")
           ->excludes(tight)
@@ -348,18 +348,18 @@ void add_build(CLI::App& app, Run& run) {
   command.add_flag("--keep-cavities", enclosing.keep_cavities,
                    "Keep parts of the mesh that lie inside of other parts. An outer hull encloses them also if they "
                    "are dropped; an inner hull always keeps them.");
-  add_length(command, "--seal-holes", options->seal_holes,
+  add_length(command, "--seal-holes", options.seal_holes,
              "Close openings up to this diameter where the mesh is wrapped.");
   add_choice(command, "--strategy", hull.strategy, strategy_names(),
              "Order in which edges collapse. lazy is the tightest and fastest; paper1 and paper2 are those of Platis "
              "and Theoharis (2003).");
-  add_value(command, "--hierarchy", options->hierarchy, "H.phull",
+  add_value(command, "--hierarchy", options.hierarchy, "H.phull",
             "Also write all levels between hull and mesh to this file, for lod, verify, query and render. The hull is "
             "then the coarsest of these levels: collapses alone make it, and with few faces it may be much larger than "
             "without this option.")
       ->excludes(tight)
       ->excludes(gap);
-  add_certificate_option(command, options->certificate, "the hull",
+  add_certificate_option(command, options.certificate, "the hull",
                          " There is none of an inner hull of a mesh that is not closed.")
       ->excludes(recenter);
   add_choice(command, "--self-intersections", hull.self_intersections, self_intersections_names(),
@@ -370,11 +370,11 @@ void add_build(CLI::App& app, Run& run) {
   add_number(command, "--seed", hull.seed, kSeed,
              "Number that varies the order of collapses a little, and so the hull; the first seed of --best-of.");
   add_threads_option(command, hull.threads, "The hull is the same for any number.");
-  command.add_flag("--strict", options->strict,
+  command.add_flag("--strict", options.strict,
                    "Exit with code 1 if the number of faces is not reached and no bound asks for more; a bound that is "
                    "missed always does so.");
-  add_report_option(command, options->report);
-  add_guards(command, *options);
+  add_report_option(command, options.report);
+  add_guards(command, options);
   group_options(command);
   add_examples(command, {"prohull build horse.ply --faces 2000 -o hull.ply",
                          "prohull build arm.stl --unit mm --faces 500 -o arm_collision.stl --report arm.json",
@@ -394,7 +394,6 @@ void add_build(CLI::App& app, Run& run) {
                          "prohull build horse.ply --faces 200 -o hull.ply --hierarchy horse.phull",
                          "prohull build arm.stl --faces 200 -o arm_collision.stl --certificate arm.phcert",
                          "prohull build - --in-format stl -o - --out-format ply <part.stl >hull.ply"});
-  command.callback([options, &run] { run = [options] { return run_build(*options); }; });
 }
 
 }  // namespace prohull::cli

@@ -206,24 +206,24 @@ int run_cage(CageRunOptions options) {
 }  // namespace
 
 void add_cage(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<CageRunOptions>();
-  CageOptions& cage = options->cage;
-  CLI::App& command = *app.add_subcommand(
-      "cage",
+  const auto [command, options] = add_command<CageRunOptions>(
+      app, run, "cage",
       "Builds a cage of a mesh: an outer hull, and with --inner an inner hull, that keep a gap from the mesh. No face "
       "of one touches a face of another, which is decided exactly. So the space between them can be filled with "
-      "tetrahedra, and every point of the mesh has coordinates in the outer hull.");
-  add_mesh_input(command, options->in, options->input, "Mesh to build a cage of.");
-  add_mesh_output_options(command, options->out, options->out_format, "the outer hull");
+      "tetrahedra, and every point of the mesh has coordinates in the outer hull.",
+      run_cage);
+  CageOptions& cage = options.cage;
+  add_mesh_input(command, options.in, options.input, "Mesh to build a cage of.");
+  add_mesh_output_options(command, options.out, options.out_format, "the outer hull");
   CLI::Option* const inner =
-      add_value(command, "--inner", options->inner, "FILE", "Also build an inner hull, and write it to this file.");
-  add_certificate_option(command, options->certificate,
+      add_value(command, "--inner", options.inner, "FILE", "Also build an inner hull, and write it to this file.");
+  add_certificate_option(command, options.certificate,
                          "the outer hull (with --inner, of both: {side} in the name becomes outer and inner)");
   add_number(command, "--faces", cage.outer_faces, {4, 1e9}, "Number of faces that a hull should have, at least 4.");
   add_optional_number(command, "--inner-faces", cage.inner_faces, {4, 1e9},
                       "Number of faces that the inner hull should have, if it is not that of --faces.")
       ->needs(inner);
-  add_length(command, "--gap", options->gap,
+  add_length(command, "--gap", options.gap,
              "Distance that both hulls keep from the mesh, at least. Without this option it is 0.1%. The inner hull "
              "keeps less where none that keeps it is found, as in a thin mesh.");
   command.add_flag(
@@ -234,13 +234,12 @@ void add_cage(CLI::App& app, Run& run) {
   command.add_flag("--tight", cage.tight,
                    "Start from hulls of least void, as `prohull build --tight` makes them, which takes longer.");
   add_threads_option(command, cage.threads, "The cage is the same for any number.");
-  command.add_flag("--strict", options->strict,
+  command.add_flag("--strict", options.strict,
                    "Exit with code 1 if a number of faces or the gap is not reached, or if a hull intersects itself.");
-  add_report_option(command, options->report);
+  add_report_option(command, options.report);
   add_examples(command, {"prohull cage horse.ply -o cage.obj",
                          "prohull cage horse.ply --faces 600 -o outer.obj --inner inner.obj --inner-faces 300",
                          "prohull cage organ.stl --unit mm --gap 2mm --even -o outer.ply --report cage.json"});
-  command.callback([options, &run] { run = [options] { return run_cage(*options); }; });
 }
 
 }  // namespace prohull::cli

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "asked_mesh.h"
 #include "command.h"
 #include "prohull/detail/collision_levels.h"
 #include "prohull/detail/query_io.h"
 #include "prohull/detail/summary.h"
 #include "prohull/error.h"
 #include "robot/json.h"
-#include "solid_notes.h"
 
 namespace prohull::cli {
 namespace {
@@ -34,7 +34,7 @@ std::vector<Pose> poses_of(const CollideOptions& options) {
   try {
     return {read_pose(options.pose, "--pose")};
   } catch (const InputError& error) {
-    throw InputError(Defect::InvalidOption, error.what());
+    refuse(error.what());
   }
 }
 
@@ -183,46 +183,45 @@ int run_collide(const CollideOptions& options) {
 }  // namespace
 
 void add_collide(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<CollideOptions>();
-  CLI::App& command = *app.add_subcommand(
-      "collide",
+  const auto [command, options] = add_command<CollideOptions>(
+      app, run, "collide",
       "Decides exactly whether two meshes have a point in common, and exits with code 1 if they do. Touching counts, "
       "and so does a closed mesh that is wholly inside of another one. A closed mesh that is inside out is turned. Of "
       "a "
       "mesh that is not closed only the faces count, which is said even with --quiet. B may be moved and turned, also "
-      "to many poses.");
-  add_value(command, "a", options->a, "A", std::string("Mesh or .phull file. ") + kMeshFiles)->required();
-  add_value(command, "b", options->b, "B", "Mesh or .phull file, which the poses move.")->required();
-  add_format_option(command, options->input);
-  add_unit_options(command, options->input, "both meshes");
+      "to many poses.",
+      run_collide);
+  add_value(command, "a", options.a, "A", std::string("Mesh or .phull file. ") + kMeshFiles)->required();
+  add_value(command, "b", options.b, "B", "Mesh or .phull file, which the poses move.")->required();
+  add_format_option(command, options.input);
+  add_unit_options(command, options.input, "both meshes");
   CLI::Option* const pose =
-      add_value(command, "--pose", options->pose, "NUMBERS",
+      add_value(command, "--pose", options.pose, "NUMBERS",
                 "Pose of B: seven numbers x,y,z,qw,qx,qy,qz, a translation and a quaternion; or twelve, the upper "
                 "three rows of a matrix of 4 x 4. Without this option B stays where it is.");
-  add_value(command, "--poses", options->poses, "FILE",
+  add_value(command, "--poses", options.poses, "FILE",
             "File of poses of B, one a row, .npy, .npz or .csv. An .npy array may also have the shape (n, 4, 4).")
       ->excludes(pose);
   CLI::Option* const out = add_value(
-      command, "-o,--out", options->out, "PAIRS",
+      command, "-o,--out", options.out, "PAIRS",
       "File for the pairs of faces that meet, .npz or .csv: pose, face_a, face_b. With - they go to standard output.");
-  add_out_format_option(command, options->out_format, pair_outputs());
-  CLI::Option* const distance = command.add_flag("--distance", options->distance,
+  add_out_format_option(command, options.out_format, pair_outputs());
+  CLI::Option* const distance = command.add_flag("--distance", options.distance,
                                                  "Also find the least distance of each pose, with proven bounds.");
   command
-      .add_flag("--conservative", options->conservative,
+      .add_flag("--conservative", options.conservative,
                 "Ask hulls in place of the meshes, which is faster. The hull of a .phull file is its base mesh; any "
                 "other file is taken as a hull itself. Hulls that are free enclose meshes that are free. Hulls that "
                 "meet may enclose meshes that are free, too.")
       ->excludes(out)
       ->excludes(distance);
-  add_threads_option(command, options->threads, "The answers are the same for any number.");
-  add_report_option(command, options->report);
+  add_threads_option(command, options.threads, "The answers are the same for any number.");
+  add_report_option(command, options.report);
   add_examples(command, {"prohull collide arm.stl wall.stl",
                          "prohull collide arm.stl tool.stl --pose 0.1,0,0.4,1,0,0,0 --distance",
                          "prohull collide arm.ply part.ply --poses poses.npy --report free.json",
                          "prohull collide gear.ply gear.ply --pose 12.5,0,0,1,0,0,0 -o contacts.csv",
                          "prohull collide arm.phull part.phull --poses poses.csv --conservative"});
-  command.callback([options, &run] { run = [options] { return run_collide(*options); }; });
 }
 
 }  // namespace prohull::cli

@@ -2,12 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "console.h"
 #include "inputs.h"
-#include "interrupt.h"
 #include "options.h"
 #include "outputs.h"
 #include "prohull/detail/mesh_quality.h"
@@ -37,6 +37,23 @@ nlohmann::json finite_or_null(double value);
 
 // Each adds its subcommand to the program and leaves in `run` what to do when it is chosen; run returns the exit code.
 using Run = std::function<int()>;
+
+template <class Options>
+struct CommandOf {
+  CLI::App& command;
+  Options& options;
+};
+
+/// Adds a subcommand that calls work(options) when it is chosen. The options are to be added to it.
+template <class Options, class Work>
+CommandOf<Options> add_command(CLI::App& app, Run& run, const std::string& name, const std::string& description,
+                               Work work) {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command = *app.add_subcommand(name, description);
+  command.callback([options, work, &run] { run = [options, work] { return work(*options); }; });
+  return {command, *options};
+}
+
 void add_build(CLI::App& app, Run& run);
 void add_cage(CLI::App& app, Run& run);
 void add_collide(CLI::App& app, Run& run);

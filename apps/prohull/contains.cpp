@@ -26,19 +26,18 @@ PointAnswers ask(const QueryIndex& index, const std::vector<Vec3>& points, const
 }  // namespace
 
 void add_contains(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<PointOptions>();
-  options->is_about_inside = options->closes = true;
-  CLI::App& command = *app.add_subcommand(
-      "contains",
+  const auto [command, options] = add_command<PointOptions>(
+      app, run, "contains",
       "Decides which points are inside of a mesh, exactly. A point is inside if the mesh winds around it at least "
       "once, so cavities are outside. A closed mesh that is inside out is turned. Of a mesh that is not closed, the "
       "solid is asked that `prohull repair` makes of "
-      "it; one that repairs do not close is refused.");
-  add_point_options(command, *options, inside_outputs());
+      "it; one that repairs do not close is refused.",
+      [](const PointOptions& chosen) { return run_points(chosen, inside_outputs(), ask); });
+  options.is_about_inside = options.closes = true;
+  add_point_options(command, options, inside_outputs());
   add_examples(command,
                {"prohull contains horse.ply --random 1e6", "prohull contains part.stl --points p.npy -o in.npz",
                 "prohull contains part.stl --points - -o - --out-format csv <points.csv"});
-  command.callback([options, &run] { run = [options] { return run_points(*options, inside_outputs(), ask); }; });
 }
 
 }  // namespace prohull::cli

@@ -439,36 +439,36 @@ int run_convex(const ConvexOptions& options) {
 }  // namespace
 
 void add_convex(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<ConvexOptions>();
-  ConvexCoverOptions& cover = options->cover;
-  CLI::App& command = *app.add_subcommand(
-      "convex",
+  const auto [command, options] = add_command<ConvexOptions>(
+      app, run, "convex",
       "Covers a mesh by a few convex pieces, as physics engines take them. Together the pieces provably cover every "
       "triangle, and the inside too where the mesh is a solid. Any triangles will do. The files that were written are "
       "read again, and what they hold is certified by exact arithmetic. Of boxes, capsules and spheres in robot files, "
-      "polytopes are certified that lie in them by construction.");
-  add_mesh_inputs(command, options->meshes, options->input, "Mesh to cover.");
-  add_value(command, "-o,--out", options->out, "PIECES",
+      "polytopes are certified that lie in them by construction.",
+      run_convex);
+  ConvexCoverOptions& cover = options.cover;
+  add_mesh_inputs(command, options.meshes, options.input, "Mesh to cover.");
+  add_value(command, "-o,--out", options.out, "PIECES",
             "File for the pieces. .obj and .glb hold all of them, each with a name. For .stl, .ply and .off each piece "
             "has a file: OUT_01.stl and so on. .urdf and .xml (MJCF) become a file of one link or body with all "
             "pieces, to be copied into a robot, with STL files beside it. With - it goes to standard output. {name} "
             "becomes the name of the mesh's file; a folder, whose name ends in /, gets an .obj file of each mesh, or "
             "what --for takes.")
       ->required();
-  add_out_format_option(command, options->out_format, piece_outputs());
-  add_choice(command, "--for", options->engine, engine_names(),
+  add_out_format_option(command, options.out_format, piece_outputs());
+  add_choice(command, "--for", options.engine, engine_names(),
              "Engine that takes the pieces: keeps its limits of vertices and polygons, which are counted in the files "
              "as written, refuses formats that it does not read, and names pieces as it knows them. Coordinates stay "
              "those of the mesh (docs/guides/covers.md).");
-  add_certificate_option(command, options->certificate, "the pieces");
+  add_certificate_option(command, options.certificate, "the pieces");
   add_number(command, "--pieces", cover.max_pieces, {1, 1000},
              "Largest number of pieces. With 1, the file of the piece has the name OUT, without a number.");
   add_number(command, "--vertices", cover.max_vertices, {4, 1e6}, "Largest number of vertices of a piece, at least 4.");
-  add_length(command, "--max-distance", options->max_distance,
+  add_length(command, "--max-distance", options.max_distance,
              "Largest allowed distance that the pieces may reach out of the mesh. Points of a piece that lie in other "
              "pieces, or in the solid of the mesh, do not count. What closes openings of the mesh counts as mesh. With "
              "such a bound there are as few pieces as are found to keep it.");
-  add_optional_number(command, "--max-void", options->max_void_percent, kPositive,
+  add_optional_number(command, "--max-void", options.max_void_percent, kPositive,
                       "Largest allowed void, in per cent. The void is how much more volume the pieces have together "
                       "than the mesh. With such a bound there are as few pieces as are found to keep it.")
       ->type_name("PERCENT");
@@ -476,7 +476,7 @@ void add_convex(CLI::App& app, Run& run) {
              "Shape of the pieces. With a bound, a piece has this shape only where the bound allows it, and is a "
              "polytope elsewhere. Mesh files hold polytopes and boxes only.");
   add_threads_option(command, cover.threads, "The pieces are the same for any number.");
-  add_report_option(command, options->report);
+  add_report_option(command, options.report);
   add_examples(command, {"prohull convex horse.ply -o horse_pieces.obj",
                          "prohull convex arm.stl --unit mm --pieces 8 --vertices 32 -o arm_collision.glb",
                          "prohull convex arm.stl --for godot -o arm_collision.glb",
@@ -485,7 +485,6 @@ void add_convex(CLI::App& app, Run& run) {
                          "prohull convex arm.stl --unit mm --shape capsule --max-void 60 -o arm_pieces.xml",
                          "prohull convex parts/ --pieces 8 -o pieces/",
                          "prohull convex pump.stl --pieces 1 --vertices 16 -o pump_polytope.stl"});
-  command.callback([options, &run] { run = [options] { return run_convex(*options); }; });
 }
 
 }  // namespace prohull::cli

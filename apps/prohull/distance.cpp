@@ -46,25 +46,23 @@ PointAnswers answers(std::vector<ClosestPoint> distances) {
 }  // namespace
 
 void add_distance(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<PointOptions>();
-  options->bytes_per_point = 220;
-  CLI::App& command = *app.add_subcommand(
-      "distance", "Finds how far points are from a mesh, with proven bounds, and the closest point of the mesh.");
-  add_point_options(command, *options, distance_outputs());
-  command.add_flag("--signed", options->is_about_inside,
+  const auto [command, options] = add_command<PointOptions>(
+      app, run, "distance",
+      "Finds how far points are from a mesh, with proven bounds, and the closest point of the mesh.",
+      [](const PointOptions& chosen) {
+        return run_points(chosen, distance_outputs(),
+                          [&](const QueryIndex& index, const std::vector<Vec3>& points, const BatchOptions& batch) {
+                            return answers(distances_of(index, points, batch, chosen.is_about_inside));
+                          });
+      });
+  options.bytes_per_point = 220;
+  add_point_options(command, options, distance_outputs());
+  command.add_flag("--signed", options.is_about_inside,
                    "Make the distances of points that are inside negative. The mesh must be closed; what is inside out "
                    "is turned.");
   add_examples(command,
                {"prohull distance horse.ply --random 1e5", "prohull distance scan.stl --points p.npy -o distances.npz",
                 "prohull distance part.stl --points p.csv -o distances.csv --signed"});
-  command.callback([options, &run] {
-    run = [options] {
-      return run_points(*options, distance_outputs(),
-                        [&](const QueryIndex& index, const std::vector<Vec3>& points, const BatchOptions& batch) {
-                          return answers(distances_of(index, points, batch, options->is_about_inside));
-                        });
-    };
-  });
 }
 
 }  // namespace prohull::cli

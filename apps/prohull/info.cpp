@@ -217,19 +217,18 @@ int run_info(const InfoOptions& options) {
 }  // namespace
 
 void add_info(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<InfoOptions>();
-  CLI::App& command = *app.add_subcommand(
-      "info",
+  const auto [command, options] = add_command<InfoOptions>(
+      app, run, "info",
       "Tells what a mesh or .phull file holds, how good its triangles are, and what `prohull build` would do with it. "
       "Openings are holes, and the rims of open meshes; their size is the largest distance between two of their "
       "points. "
       "The compactness of a triangle is 1 if its sides are equal and 0 if it has no area; an edge is sharp if its two "
-      "faces meet at less than 135 degrees.");
-  add_mesh_input(command, options->in, options->input, "Mesh or .phull file.");
-  add_report_option(command, options->report);
+      "faces meet at less than 135 degrees.",
+      run_info);
+  add_mesh_input(command, options.in, options.input, "Mesh or .phull file.");
+  add_report_option(command, options.report);
   add_examples(command, {"prohull info horse.ply", "prohull info horse.phull --report info.json",
                          "prohull info part.stl --unit mm", "curl -s https://example.com/part.stl | prohull info -"});
-  command.callback([options, &run] { run = [options] { return run_info(*options); }; });
 }
 
 }  // namespace prohull::cli

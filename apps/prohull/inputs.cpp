@@ -32,10 +32,10 @@ std::string name_of_unit(double metres) {
 /// A file that says its unit is not in another one. glTF files often are not in the metres of their standard.
 void check_unit(const FileUnit& file, const InputOptions& options, const std::filesystem::path& name) {
   if (options.unit > 0 && file.is_said && file.metres > 0 && options.unit != file.metres)
-    throw InputError(Defect::InvalidOption,
-                     fmt::format("{}: --unit is for files that do not say their unit; this one says it, and is read in "
-                                 "the unit {}; leave --unit out, or use --scale",
-                                 name.string(), name_of_unit(file.metres)));
+    refuse(
+        fmt::format("{}: --unit is for files that do not say their unit; this one says it, and is read in "
+                    "the unit {}; leave --unit out, or use --scale",
+                    name.string(), name_of_unit(file.metres)));
 }
 
 /// Standard input has no suffix that could tell its format.
@@ -100,6 +100,17 @@ void add_unit_options(CLI::App& command, InputOptions& options, const std::strin
       ->excludes(scale);
 }
 
+void add_robot_input(CLI::App& command, std::filesystem::path& in) {
+  add_value(command, "in", in, "ROBOT",
+            "Robot: URDF, SDF or MJCF. A .xacro file is expanded by the program xacro, if that is installed.")
+      ->required();
+}
+
+void add_geometry_option(CLI::App& command, robot::Geometry& geometry) {
+  add_choice(command, "--geometry", geometry, robot::geometry_names(),
+             "Geometry of the links that counts. A link that has none of it counts by the other one.");
+}
+
 void add_robot_file_options(CLI::App& command, robot::FileOptions& options) {
   add_package_path_option(command, options.package_paths);
   command.add_flag("--no-outside-files", options.no_outside_files,
@@ -143,11 +154,9 @@ MeshUnit::MeshUnit(const TriangleMesh& mesh, const std::filesystem::path& path, 
 
 double MeshUnit::number_of(const Length& length, const std::string& what) const {
   if (length.needs_metres() && metres_ == 0)
-    throw InputError(
-        Defect::InvalidOption,
-        fmt::format("{} {:g}{}: {}, or say a number in the mesh's unit", what, length.number, length.unit,
-                    scale_ != 1 ? "with --scale, the unit of " + name_ + " is not known; use --unit instead"
-                                : name_ + " does not say its unit; add --unit mm (lengths are then in metres)"));
+    refuse(fmt::format("{} {:g}{}: {}, or say a number in the mesh's unit", what, length.number, length.unit,
+                       scale_ != 1 ? "with --scale, the unit of " + name_ + " is not known; use --unit instead"
+                                   : name_ + " does not say its unit; add --unit mm (lengths are then in metres)"));
   if (length.unit == "%" && length.number > 0 && why_no_size_)
     throw InputError(why_no_size_->defect(), fmt::format("{}: {}", name_, why_no_size_->what()));
   return length.needs_metres() ? length.of(diagonal_) / metres_ : length.of(diagonal_);
@@ -196,11 +205,9 @@ MeshOrHull read_mesh_or_hull(const std::filesystem::path& path, const InputOptio
   const std::string content = read_bytes(path);
   if (!is_hull_content(content)) return mesh_in(content, path, options, non_finite);
   if (options.factor() != 1)
-    throw InputError(
-        Defect::InvalidOption,
-        fmt::format(
-            "{}: --scale and --unit are for mesh files; a .phull file has the coordinates that it was built with",
-            input_name(path)));
+    refuse(fmt::format(
+        "{}: --scale and --unit are for mesh files; a .phull file has the coordinates that it was built with",
+        input_name(path)));
   return load_hull(content, known_as(path, options));
 }
 

@@ -40,6 +40,10 @@ void add_mesh_inputs(CLI::App& command, std::vector<std::filesystem::path>& in, 
                      const std::string& purpose);
 
 using robot::is_robot_file;
+/// The argument ROBOT.
+void add_robot_input(CLI::App& command, std::filesystem::path& in);
+/// --geometry of the links of a robot.
+void add_geometry_option(CLI::App& command, robot::Geometry& geometry);
 /// --package-path and --no-outside-files.
 void add_robot_file_options(CLI::App& command, robot::FileOptions& options);
 /// By the suffix: YAML.

@@ -23,8 +23,7 @@ TriangleMesh level_of(const ProgressiveHull& hull, const LodOptions& options, co
       hull.level(options.mirror ? symmetric_faces(hull, *options.mirror, options.faces) : options.faces);
   if (stores_float32(mesh_format("mesh" + suffix))) level = float32_level(hull, level);
   if (options.mirror && !inspect_symmetry(level, *options.mirror).is_symmetric())
-    throw InputError(
-        Defect::InvalidOption,
+    refuse(
         fmt::format("{}: the file keeps float32 coordinates, and rounded to them the level is not symmetric "
                     "any more; build the hull with an .stl or .glb file as output, or write .ply, .obj or .off",
                     output_name(options.out)));
@@ -107,29 +106,28 @@ int extract(LodOptions options) {
 }  // namespace
 
 void add_lod(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<LodOptions>();
-  CLI::App& command = *app.add_subcommand(
-      "lod",
+  const auto [command, options] = add_command<LodOptions>(
+      app, run, "lod",
       "Extracts a level of a .phull file as a mesh. Every level encloses the solid of the next finer one (of an inner "
       "hull: is enclosed by it), and the finest is the mesh that the hull was built from, bit for bit: the input, or "
       "what was made of it, which is then said. Where the finest level folds over itself, as that of an input with "
       "openings or overlapping parts may, a level can leave some of its faces uncovered. Each level is compared with "
-      "the finest one as it is written, and the summary says whether it encloses it.");
+      "the finest one as it is written, and the summary says whether it encloses it.",
+      extract);
   add_value(
-      command, "in", options->in, "H.phull",
+      command, "in", options.in, "H.phull",
       "File with all levels of a hull, which `prohull build --hierarchy` wrote. With - it is read from standard input.")
       ->required();
-  add_mesh_output_options(command, options->out, options->out_format, "the level");
+  add_mesh_output_options(command, options.out, options.out_format, "the level");
   add_optional_number(
-      command, "--faces", options->faces, {0, 1e10},
+      command, "--faces", options.faces, {0, 1e10},
       "Take the finest level that has at most this number of faces. Without it, the coarsest level is taken.");
-  add_choice(command, "--mirror", options->mirror, axis_names(),
+  add_choice(command, "--mirror", options.mirror, axis_names(),
              "Take a symmetric level, of a hull that was built with the same option: of two levels that follow each "
              "other, one is at least.");
-  add_report_option(command, options->report);
+  add_report_option(command, options.report);
   add_examples(command, {"prohull lod horse.phull --faces 5000 -o level.ply", "prohull lod horse.phull -o base.stl",
                          "prohull lod horse.phull -o - --out-format obj >base.obj"});
-  command.callback([options, &run] { run = [options] { return extract(*options); }; });
 }
 
 }  // namespace prohull::cli

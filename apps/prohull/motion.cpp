@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
-#include <span>
 #include <string>
 
 #include "command.h"
@@ -377,52 +376,48 @@ void add_world(CLI::App& command, PathOptions& options) {
       ->allow_extra_args(false);
   add_value(command, "--srdf", options.srdf, "FILE.srdf",
             "SRDF file, the disabled pairs of links of which are not checked.");
-  add_choice(command, "--geometry", options.geometry, geometry_names(),
-             "Geometry of the links that counts. A link that has none of it counts by the other one.");
+  add_geometry_option(command, options.geometry);
 }
 
 }  // namespace
 
 void add_motion(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<PathOptions>();
-  CLI::App& command = *app.add_subcommand(
-      "motion",
+  const auto [command, options] = add_command<PathOptions>(
+      app, run, "motion",
       "Decides whether a robot is free all along a path: proven at every moment, not sampled. Otherwise it finds the "
       "first moment at which two links, or a link and the world, meet, as closely as --cells allows, and says before "
       "which moment the path is proven free. The exit code is 0 if all paths are free and "
-      "within the limits of the joints, 1 if one is not, and 4 if that is open.");
-  add_value(command, "in", options->in, "ROBOT",
-            "Robot: URDF, SDF or MJCF. A .xacro file is expanded by the program xacro, if that is installed.")
-      ->required();
-  add_value(command, "paths", options->paths, "PATH",
+      "within the limits of the joints, 1 if one is not, and 4 if that is open.",
+      run_motion);
+  add_robot_input(command, options.in);
+  add_value(command, "paths", options.paths, "PATH",
             "Paths of joint positions: CSV files with the names of joints in the first line, and time if there is one; "
             "or JSON files, such as a JointTrajectory of ROS (docs/guides/motion.md). With - the file is read from "
             "standard input.")
       ->required();
-  add_robot_file_options(command, options->file);
-  add_value(command, "--gap", options->gap, "LENGTH",
+  add_robot_file_options(command, options.file);
+  add_value(command, "--gap", options.gap, "LENGTH",
             "How far bodies have to be apart at least, in metres or with a unit: 5mm. Closer counts as meeting.");
-  add_number(command, "--cells", options->proof.cells, {2, 1e9},
+  add_number(command, "--cells", options.proof.cells, {2, 1e9},
              "Largest number of pieces into which a path is divided for each pair of bodies. What is not decided then "
              "is open.");
-  add_value(command, "--curve", options->curve, "FILE.csv",
+  add_value(command, "--curve", options.curve, "FILE.csv",
             "CSV file for the least distance over time: between begin and end, all pairs are at least that far apart, "
             "which is proven. The bounds are no less than 0.6 of the distance, as far as --cells allows.");
-  add_value(command, "--page", options->page, "FILE.html",
+  add_value(command, "--page", options.page, "FILE.html",
             "Page of HTML that shows the robot on its path, with a slider of time and the curve of --curve, as "
             "`prohull view` shows robots.");
   add_value(
-      command, "--certificate", options->certificate, "FILE.phmotion",
+      command, "--certificate", options.certificate, "FILE.phmotion",
       "File with which prohull_check_motion, a program of one C file that shares nothing with this one, decides again "
       "that pairs of bodies are free all along (docs/certificate.md). Pairs that are not are left out of it.");
-  add_threads_option(command, options->proof.threads, "The result is the same for any number.");
-  add_report_option(command, options->report);
-  add_world(command, *options);
+  add_threads_option(command, options.proof.threads, "The result is the same for any number.");
+  add_report_option(command, options.report);
+  add_world(command, options);
   add_examples(command, {"prohull motion arm.urdf pick.csv", "prohull motion arm.urdf pick.csv place.json --gap 5mm",
                          "prohull motion arm.urdf pick.csv --world table.stl --unit mm --ignore base_link,table",
                          "prohull motion arm.urdf pick.csv --srdf arm.srdf --curve clearance.csv --report pick.json",
                          "prohull motion arm.urdf pick.csv --page pick.html"});
-  command.callback([options, &run] { run = [options] { return run_motion(*options); }; });
 }
 
 }  // namespace prohull::cli

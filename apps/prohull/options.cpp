@@ -4,26 +4,15 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <optional>
 
 #include "console.h"
 #include "prohull/error.h"
 
 namespace prohull::cli {
 namespace {
-
-template <class Number>
-std::optional<Number> parsed(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  Number number{};
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || rest != text.data() + text.size()) return std::nullopt;
-  return number;
-}
 
 std::string shown(double number) {
   constexpr double kTooLongToGroup = 1e15;

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -28,6 +30,16 @@ constexpr Range kSeed{0, 0x1p64};
 /// Refuses what is no number in the range, and writes the others as CLI11 reads them: 1e6 as 1000000.
 /// `name` is that of the option, for the message.
 CLI::Validator number_in(const std::string& name, const Range& range, bool whole);
+
+/// The number that all of the text is; a plus may stand before it.
+template <class Number>
+std::optional<Number> parsed(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  Number number{};
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || rest != text.data() + text.size()) return std::nullopt;
+  return number;
+}
 
 /// The `count` finite numbers of a text, with commas between them. Throws InputError(InvalidOption) that calls it
 /// `what`.

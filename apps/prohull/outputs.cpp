@@ -18,7 +18,6 @@
 #include <system_error>
 
 #include "console.h"
-#include "interrupt.h"
 #include "options.h"
 #include "prohull/detail/extension.h"
 #include "prohull/error.h"
@@ -304,8 +303,6 @@ path path_for(const path& pattern, std::size_t faces) {
     name.replace(at, kFacesInName.size(), std::to_string(faces));
   return name;
 }
-
-void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
 
 void flush_standard_output() {
   const bool has_failed = std::ferror(stdout) != 0;

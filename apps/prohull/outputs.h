@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "prohull/detail/refuse.h"
 #include "prohull/triangle_mesh.h"
 
 namespace prohull::cli {
@@ -87,9 +88,6 @@ CLI::Option* add_out_format_option(CLI::App& command, std::string& format, const
 
 /// {faces} in the pattern becomes the number of faces that a hull was asked to have.
 std::filesystem::path path_for(const std::filesystem::path& pattern, std::size_t faces);
-
-/// Throws InputError(InvalidOption).
-[[noreturn]] void refuse(const std::string& what);
 
 /// The name of an output in messages: that of "-" is "standard output".
 std::string output_name(const std::filesystem::path& path);

@@ -86,7 +86,7 @@ Queries make_queries(const QueryOptions& options, const AskedMesh& asked) {
 /// The hull of a .phull file that an option needs.
 const ProgressiveHull& hull_for(std::string_view option, const MeshOrHull& asked) {
   const auto* const hull = std::get_if<ProgressiveHull>(&asked);
-  if (!hull) throw InputError(Defect::InvalidOption, fmt::format("{} needs a .phull file to ask", option));
+  if (!hull) refuse(fmt::format("{} needs a .phull file to ask", option));
   return *hull;
 }
 
@@ -246,28 +246,29 @@ void add_queries(CLI::App& command, QueryOptions& options) {
 }  // namespace
 
 void add_query(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<QueryOptions>();
-  CLI::App& command = *app.add_subcommand("query",
-                                          "Finds where segments, rays or triangles meet a mesh, exactly. The mesh need "
-                                          "not be closed, and nothing slips through at its edges and vertices.");
-  add_mesh_input(command, options->in, options->input, "Mesh or .phull file to ask.");
-  add_value(command, "-o,--out", options->out, "HITS",
+  const auto [command, options] =
+      add_command<QueryOptions>(app, run, "query",
+                                "Finds where segments, rays or triangles meet a mesh, exactly. The mesh need "
+                                "not be closed, and nothing slips through at its edges and vertices.",
+                                run_query);
+  add_mesh_input(command, options.in, options.input, "Mesh or .phull file to ask.");
+  add_value(command, "-o,--out", options.out, "HITS",
             "File for the hits, .npz or .csv. With - they go to standard output. Without this option only the summary "
             "is printed.");
-  add_out_format_option(command, options->out_format, hit_outputs());
-  add_queries(command, *options);
-  add_engine_option(command, options->engine, all_engine_names());
-  CLI::Option* const inner = add_value(command, "--inner", options->inner, "INNER.phull",
+  add_out_format_option(command, options.out_format, hit_outputs());
+  add_queries(command, options);
+  add_engine_option(command, options.engine, all_engine_names());
+  CLI::Option* const inner = add_value(command, "--inner", options.inner, "INNER.phull",
                                        "Hierarchy of inner hulls of the same mesh, where IN is one of outer hulls. The "
                                        "engines walk and filter use both.");
   command
-      .add_flag("--conservative", options->conservative,
+      .add_flag("--conservative", options.conservative,
                 "Ask the coarsest hull of a .phull file in place of the mesh. An outer hull misses no hit, but may "
                 "report hits that are none; an inner hull reports no hit that is none, but may miss hits. This holds "
                 "for rays, and for segments with an end outside. Hits are on faces of that hull.")
       ->excludes(inner);
-  add_threads_option(command, options->threads, "The answers are the same for any number.");
-  add_report_option(command, options->report);
+  add_threads_option(command, options.threads, "The answers are the same for any number.");
+  add_report_option(command, options.report);
   add_examples(command,
                {"prohull query horse.ply --random 1e4", "prohull query horse.ply --segments segments.npy -o hits.npz",
                 "prohull query scan.stl --rays rays.csv --mode all -o hits.csv --threads 4",
@@ -275,7 +276,6 @@ void add_query(CLI::App& app, Run& run) {
                 "prohull query part.stl --rays - -o - --out-format csv <rays.csv",
                 "prohull query horse.phull --random 1e4 --engine paper-refinement --report counts.json",
                 "prohull query horse.phull --inner inside.phull --random 1e4 --mode all --engine walk"});
-  command.callback([options, &run] { run = [options] { return run_query(*options); }; });
 }
 
 }  // namespace prohull::cli

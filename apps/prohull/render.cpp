@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 
 #include "command.h"
@@ -45,14 +44,6 @@ constexpr std::string_view kOriginal = "original", kNone = "none", kTransparent 
 
 double radians(double degrees) { return degrees * kDegree; }
 
-/// Whether all of the text is a number.
-template <class Number>
-bool parse(std::string_view text, Number& number) {
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  return rest == end && error == std::errc();
-}
-
 Rgb color_of(const std::string& text) {
   if (const auto color = render::parse_color(text)) return *color;
   refuse(fmt::format("'{}' is no colour; say #rrggbb, or one of {}", text, render::color_names()));
@@ -64,10 +55,11 @@ struct Size {
 
 Size size_of(const std::string& text) {
   constexpr int kMax = render::Image::kMaxSide;
-  Size size;
   const std::size_t cross = std::min(text.find('x'), text.size());
-  if (!parse(text.substr(0, cross), size.width) || !parse(text.substr(std::min(cross + 1, text.size())), size.height) ||
-      std::min(size.width, size.height) < 1 || std::max(size.width, size.height) > kMax)
+  const auto side = [&](std::string_view part) { return parsed<int>(part).value_or(0); };
+  const std::string_view all = text;
+  const Size size{side(all.substr(0, cross)), side(all.substr(std::min(cross + 1, all.size())))};
+  if (std::min(size.width, size.height) < 1 || std::max(size.width, size.height) > kMax)
     refuse(fmt::format("'{}' is no size; say WIDTHxHEIGHT in pixels, as 1024x768, at most {} each", text, kMax));
   return size;
 }
@@ -75,18 +67,18 @@ Size size_of(const std::string& text) {
 std::size_t level_of(const std::string& text) {
   if (text == kOriginal) return MeshTable::kFinest;
   constexpr double kMost = 1e10;
-  double faces = 0;  // as other commands take it: 1e6, too
-  if (!parse(text, faces) || !(faces >= 0 && faces <= kMost) || faces != std::floor(faces))
+  const auto faces = parsed<double>(text);  // as other commands take it: 1e6, too
+  if (!faces || !(*faces >= 0 && *faces <= kMost) || *faces != std::floor(*faces))
     refuse(fmt::format("'{}' is no level; say a number of faces, or {}", text, kOriginal));
-  return static_cast<std::size_t>(faces);
+  return static_cast<std::size_t>(*faces);
 }
 
 double explosion_of(const std::string& text) {
   constexpr double kMost = 100;
-  double factor = 0;
-  if (!parse(text, factor) || !(factor >= 0 && factor <= kMost))
+  const auto factor = parsed<double>(text);
+  if (!factor || !(*factor >= 0 && *factor <= kMost))
     refuse(fmt::format("--explode takes a number between 0 and {}, or {}, but not '{}'", kMost, kNone, text));
-  return factor;
+  return *factor;
 }
 
 Segment segment_of(const std::string& text) {
@@ -463,29 +455,30 @@ void add_view_options(CLI::App& command, RenderOptions& options) {
 }  // namespace
 
 void add_render(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<RenderOptions>();
-  CLI::App& command = *app.add_subcommand(
-      "render", "Draws meshes, hulls and robots as a PNG picture. Each of them has a panel of its own, side by side.");
-  add_value(command, "in", options->in, "IN",
+  const auto [command, options] = add_command<RenderOptions>(
+      app, run, "render",
+      "Draws meshes, hulls and robots as a PNG picture. Each of them has a panel of its own, side by side.",
+      run_render);
+  add_value(command, "in", options.in, "IN",
             std::string("Meshes, .phull files, robots (.urdf, .xacro, .sdf, .mjcf, .xml) or spheres (.yaml) to draw. "
                         "Robots are drawn within their collision geometry, and spheres --over a mesh or a robot. ") +
                 kMeshFiles)
       ->required();
-  add_value(command, "-o,--out", options->out, "OUT.png",
+  add_value(command, "-o,--out", options.out, "OUT.png",
             "File for the picture, .png. With - it goes to standard output.")
       ->required();
-  add_format_option(command, options->input);
-  add_package_path_option(command, options->robots.package_paths);
-  add_value(command, "--size", options->size, "WIDTHxHEIGHT", "Size of the picture, in pixels.")->capture_default_str();
-  add_number(command, "--samples", options->samples, {1, 256},
+  add_format_option(command, options.input);
+  add_package_path_option(command, options.robots.package_paths);
+  add_value(command, "--size", options.size, "WIDTHxHEIGHT", "Size of the picture, in pixels.")->capture_default_str();
+  add_number(command, "--samples", options.samples, {1, 256},
              "Number of samples in each pixel, 1 to 256. More of them make smoother edges.");
-  command.add_flag("--palette", options->palette,
+  command.add_flag("--palette", options.palette,
                    "Use at most 256 colours, so that the file is less than half as large.");
-  add_threads_option(command, options->threads, "The picture is the same for any number.");
-  add_report_option(command, options->report);
-  add_content_options(command, *options);
-  add_look_options(command, *options);
-  add_view_options(command, *options);
+  add_threads_option(command, options.threads, "The picture is the same for any number.");
+  add_report_option(command, options.report);
+  add_content_options(command, options);
+  add_look_options(command, options);
+  add_view_options(command, options);
   add_examples(command,
                {"prohull render horse.ply -o horse.png --ground",
                 "prohull render hull.ply --over horse.ply --wireframe -o both.png",
@@ -496,7 +489,6 @@ void add_render(CLI::App& app, Run& run) {
                 "prohull render zone.stl --over arm.urdf -o zone.png",
                 "prohull render arm.urdf arm_safe/arm.urdf --color orange --color blue -o arm.png",
                 "prohull render pump.stl -o pump.png --up y --azimuth 120 --background transparent"});
-  command.callback([options, &run] { run = [options] { return run_render(*options); }; });
 }
 
 }  // namespace prohull::cli

@@ -106,31 +106,30 @@ int run_repair(RepairRunOptions options) {
 }  // namespace
 
 void add_repair(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<RepairRunOptions>();
-  CLI::App& command = *app.add_subcommand(
-      "repair",
+  const auto [command, options] = add_command<RepairRunOptions>(
+      app, run, "repair",
       "Writes the solid of a mesh: a closed mesh, whose openings have caps and whose faces look outwards, as `prohull "
       "build` makes it before it builds a hull. Where repairs do not give one that covers all triangles, it is a wrap, "
       "a "
       "new closed surface around them. The file that was written is certified to cover every finite triangle of the "
-      "mesh, exactly; else nothing is written and the exit code is 1.");
-  add_mesh_input(command, options->in, options->input, "Mesh to close.");
-  add_mesh_output_options(command, options->out, options->out_format, "the solid");
+      "mesh, exactly; else nothing is written and the exit code is 1.",
+      run_repair);
+  add_mesh_input(command, options.in, options.input, "Mesh to close.");
+  add_mesh_output_options(command, options.out, options.out_format, "the solid");
   add_length(
-      command, "--spacing", options->spacing,
+      command, "--spacing", options.spacing,
       "Spacing of the grid that a wrap is made on, if there has to be one. Halving it takes up to 8 times as long. "
       "Without this option it is 1/256 of the diagonal of the bounding box.");
   add_choice(
-      command, "--open-shells", options->solid.repair.open_shells, open_shells_names(),
+      command, "--open-shells", options.solid.repair.open_shells, open_shells_names(),
       "What to do with openings. close gives them caps, so that what they lead into is inside; keep makes a thin "
       "solid of the triangles. A leaf or a bedsheet always stays a sheet.");
-  command.add_flag("!--drop-inside", options->solid.repair.keep_cavities,
+  command.add_flag("!--drop-inside", options.solid.repair.keep_cavities,
                    "Drop parts of the mesh that lie inside of other parts, as `prohull build` does.");
-  add_report_option(command, options->report);
+  add_report_option(command, options.report);
   add_examples(command, {"prohull repair scan.obj -o solid.ply",
                          "prohull repair part.stl --unit mm --spacing 0.2mm -o solid.stl",
                          "prohull repair soup.ply -o solid.obj --report solid.json"});
-  command.callback([options, &run] { run = [options] { return run_repair(*options); }; });
 }
 
 }  // namespace prohull::cli

@@ -42,21 +42,16 @@ int make_mesh(const SampleOptions& options) {
 /// Before any work. Throws InputError.
 void check_robot_options(const SampleOptions& options) {
   if (options.has_faces)
-    throw InputError(Defect::InvalidOption,
-                     fmt::format("--faces is for meshes; the robot {} has meshes of its own sizes; leave --faces out",
-                                 options.name));
+    refuse(fmt::format("--faces is for meshes; the robot {} has meshes of its own sizes; leave --faces out",
+                       options.name));
   if (is_standard_stream(options.out) || !options.out_format.empty())
-    throw InputError(
-        Defect::InvalidOption,
-        fmt::format("the robot {0} is a folder of files; name the folder, as in -o {0}, without --out-format",
-                    options.name));
+    refuse(fmt::format("the robot {0} is a folder of files; name the folder, as in -o {0}, without --out-format",
+                       options.name));
   const std::vector<std::string> meshes = read_mesh_extensions();
   if (robot::is_robot_file(options.out) || std::ranges::find(meshes, options.out.extension().string()) != meshes.end())
-    throw InputError(
-        Defect::InvalidOption,
-        fmt::format(
-            "{}: the robot {} is a folder of files, and this is the name of a file; name the folder, as in -o {}",
-            options.out.string(), options.name, options.out.stem().string()));
+    refuse(fmt::format(
+        "{}: the robot {} is a folder of files, and this is the name of a file; name the folder, as in -o {}",
+        options.out.string(), options.name, options.out.stem().string()));
 }
 
 /// Throws InputError(CannotWrite) for what is there, unless it is an empty folder. The current one is refused too: the

@@ -131,34 +131,33 @@ int run_spheres(SpheresOptions options) {
 }  // namespace
 
 void add_spheres(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<SpheresOptions>();
-  CLI::App& command = *app.add_subcommand(
-      "spheres",
+  const auto [command, options] = add_command<SpheresOptions>(
+      app, run, "spheres",
       "Covers a mesh by spheres, for planners that take nothing else. Every triangle is covered, which is proven "
-      "exactly, and the spheres reach out of the mesh as little as their number allows.");
-  add_mesh_input(command, options->in, options->input, "Mesh to cover.");
-  add_value(command, "-o,--out", options->out, "OUT",
+      "exactly, and the spheres reach out of the mesh as little as their number allows.",
+      run_spheres);
+  add_mesh_input(command, options.in, options.input, "Mesh to cover.");
+  add_value(command, "-o,--out", options.out, "OUT",
             "File for the spheres. Its name tells the format: .yaml or .yml for cuRobo, .urdf, .xml for MuJoCo, or "
             ".json. With - it goes to standard output.")
       ->required();
-  add_out_format_option(command, options->out_format, sphere_outputs());
-  add_certificate_option(command, options->certificate, "the spheres");
+  add_out_format_option(command, options.out_format, sphere_outputs());
+  add_certificate_option(command, options.certificate, "the spheres");
   constexpr double kMostSpheres = 100'000;
-  add_number(command, "--count", options->cover.max_balls, {1, kMostSpheres}, "Number of spheres, at most.");
-  add_length(command, "--max-distance", options->max_distance,
+  add_number(command, "--count", options.cover.max_balls, {1, kMostSpheres}, "Number of spheres, at most.");
+  add_length(command, "--max-distance", options.max_distance,
              "Largest allowed distance that the spheres may reach out of the mesh. What closes openings of the mesh "
              "counts as mesh. As few spheres as are found to keep it are taken, at most --count. The exit code is 1 if "
              "they do not keep it.");
-  command.add_flag("--fill", options->cover.fill, "Cover the inside of the mesh too, not only its surface.");
-  add_value(command, "--link", options->link, "NAME",
+  command.add_flag("--fill", options.cover.fill, "Cover the inside of the mesh too, not only its surface.");
+  add_value(command, "--link", options.link, "NAME",
             "Name of the link in the output. The default is the mesh's file name.");
-  add_threads_option(command, options->cover.threads, "The spheres are the same for any number.");
-  add_report_option(command, options->report);
+  add_threads_option(command, options.cover.threads, "The spheres are the same for any number.");
+  add_report_option(command, options.report);
   add_examples(command,
                {"prohull spheres arm.stl --unit mm -o arm.yaml",
                 "prohull spheres arm.stl --count 100 --max-distance 5 -o arm.urdf",
                 "prohull spheres forearm.dae --fill --link forearm_link -o forearm.yml --report forearm.json"});
-  command.callback([options, &run] { run = [options] { return run_spheres(*options); }; });
 }
 
 }  // namespace prohull::cli

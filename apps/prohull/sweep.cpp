@@ -16,9 +16,8 @@
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 #include "robot/files/piece_files.h"
+#include "robot/motion/kinematics.h"
 #include "robot/motion/path_sweep.h"
-#include "robot/motion/poses.h"
-#include "robot/motion/workspace_sweep.h"
 #include "robot_summary.h"
 #include "verdict.h"
 
@@ -332,42 +331,40 @@ void add_robot_options(CLI::App& command, SweepRunOptions& options) {
       .add_flag("--workspace", options.workspace,
                 "In place of a PATH: with each joint anywhere within its limits, all that the robot may ever reach.")
       ->excludes(command.get_option("path"));
-  add_choice(command, "--geometry", options.geometry, geometry_names(),
-             "Geometry of the links that counts. A link that has none of it counts by the other one.");
+  add_geometry_option(command, options.geometry);
 }
 
 }  // namespace
 
 void add_sweep(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<SweepRunOptions>();
-  CLI::App& command =
-      *app.add_subcommand("sweep",
-                          "Encloses all positions of a mesh along a motion, or of a robot along a path: the swept "
-                          "volume, as a zone to keep free. It is proven for every moment, not sampled. The result is a "
-                          "union of convex pieces, or with --faces one closed mesh around them.");
-  add_mesh_input(command, options->in, options->input, "Mesh to move, or a robot: URDF, SDF or MJCF.");
-  add_value(command, "path", options->joint_path, "PATH",
+  const auto [command, options] = add_command<SweepRunOptions>(
+      app, run, "sweep",
+      "Encloses all positions of a mesh along a motion, or of a robot along a path: the swept "
+      "volume, as a zone to keep free. It is proven for every moment, not sampled. The result is a "
+      "union of convex pieces, or with --faces one closed mesh around them.",
+      run_sweep);
+  add_mesh_input(command, options.in, options.input, "Mesh to move, or a robot: URDF, SDF or MJCF.");
+  add_value(command, "path", options.joint_path, "PATH",
             "Of a robot, the path of its joints: CSV or JSON, as `prohull motion` reads it.");
-  add_mesh_output_options(command, options->out, options->out_format, "the zone");
+  add_mesh_output_options(command, options.out, options.out_format, "the zone");
   add_optional_number(
-      command, "--faces", options->faces, {4, 1e10},
+      command, "--faces", options.faces, {4, 1e10},
       "Write one closed mesh of at most this number of faces, which encloses all pieces, in place of the pieces.");
-  add_number(command, "--pieces", options->sweep.max_pieces, {1, 1000},
+  add_number(command, "--pieces", options.sweep.max_pieces, {1, 1000},
              "Largest number of convex pieces by which the mesh, or each link, is covered before it moves.");
-  add_length(command, "--max-distance", options->max_distance,
+  add_length(command, "--max-distance", options.max_distance,
              "How far slices of the motion may add to the distance of the pieces from what is passed. Less takes more "
              "slices. The default is 2 % of the diagonal of the mesh, or of each link. A robot takes metres or a unit, "
              "and no per cent.");
-  add_threads_option(command, options->sweep.threads, "The pieces are the same for any number.");
-  add_report_option(command, options->report);
-  add_motion_options(command, *options);
-  add_robot_options(command, *options);
+  add_threads_option(command, options.sweep.threads, "The pieces are the same for any number.");
+  add_report_option(command, options.report);
+  add_motion_options(command, options);
+  add_robot_options(command, options);
   add_examples(command, {"prohull sweep door.stl --axis z --through 0,1,0 --angle 90 -o zone.stl",
                          "prohull sweep tool.stl --move 0,0,-50 -o zone.obj",
                          "prohull sweep tool.stl --poses path.csv --faces 500 -o zone.stl --report zone.json",
                          "prohull sweep arm.urdf pick.csv --links link5,link6 -o zone.glb",
                          "prohull sweep arm.urdf --workspace --faces 1000 -o workspace.stl"});
-  command.callback([options, &run] { run = [options] { return run_sweep(*options); }; });
 }
 
 }  // namespace prohull::cli

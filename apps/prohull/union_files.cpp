@@ -50,8 +50,7 @@ const Link& picked(const std::vector<Link>& links, Name name, const std::string&
   std::vector<std::string> names;
   for (const Link& each : links) names.push_back(each.*name);
   const std::string which = link.empty() ? "pieces of which link?" : fmt::format("no link '{}' has pieces;", link);
-  throw InputError(Defect::InvalidOption,
-                   fmt::format("{}: {} it has {}; say --link NAME", input_name(file), which, fmt::join(names, ", ")));
+  refuse(fmt::format("{}: {} it has {}; say --link NAME", input_name(file), which, fmt::join(names, ", ")));
 }
 
 /// Reads one file after the other.
@@ -71,13 +70,11 @@ class UnionReader {
   }
 
   Union result() {
-    if (!link_.empty() && !has_picked_)
-      throw InputError(Defect::InvalidOption, "--link picks a link of a robot or of a file of spheres; none is given");
+    if (!link_.empty() && !has_picked_) refuse("--link picks a link of a robot or of a file of spheres; none is given");
     if (all_.balls.empty() && all_.pieces.empty())
       throw InputError(Defect::EmptyMesh, "the files hold neither pieces nor spheres");
     if (!all_.balls.empty() && !all_.pieces.empty())
-      throw InputError(Defect::InvalidOption,
-                       "these are both spheres and meshes: verify a union of spheres, or one of meshes");
+      refuse("these are both spheres and meshes: verify a union of spheres, or one of meshes");
     return std::move(all_);
   }
 

@@ -434,64 +434,62 @@ void add_motion(CLI::App& command, UrdfOptions& options) {
 }  // namespace
 
 void add_urdf(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<UrdfOptions>();
-  CLI::App& command = *app.add_subcommand(
-      "urdf",
+  const auto [command, options] = add_command<UrdfOptions>(
+      app, run, "urdf",
       "Gives every link of a robot certified collision geometry. Reads URDF, SDF and MJCF, and writes a copy of the "
       "robot with its meshes, a report with pictures, and an SRDF of the links that joints connect or that provably "
       "never meet. With --check, it decides whether the collision geometry that the robot ships with covers the robot. "
-      "The exit code is 1 if a link is not covered, unless --skip-missing or its budget says to leave it as it is.");
-  add_value(command, "in", options->in, "ROBOT",
-            "Robot: URDF, SDF or MJCF. A .xacro file is expanded by the program xacro, if that is installed.")
-      ->required();
+      "The exit code is 1 if a link is not covered, unless --skip-missing or its budget says to leave it as it is.",
+      run_urdf);
+  add_robot_input(command, options.in);
   CLI::Option* const out =
-      add_value(command, "-o,--out", options->out, "DIR",
+      add_value(command, "-o,--out", options.out, "DIR",
                 "Folder for the robot and its hulls. It is made if it is not there. A folder that has "
                 "files but no report.json of an earlier run is refused, and a file that no run "
                 "has written is not overwritten.");
-  add_robot_file_options(command, options->file);
+  add_robot_file_options(command, options.file);
   add_choice(
-      command, "--collision", options->hulls.budget.collision, collision_names(),
+      command, "--collision", options.hulls.budget.collision, collision_names(),
       "What covers each link: one hull, which may be concave; convex pieces, for engines that take only these; or "
       "spheres, for planners that take only these. Spheres also go into ROBOT_spheres.yaml, as cuRobo reads them.");
-  add_choice(command, "--from", options->hulls.from, geometry_names(), "Geometry of each link that the hulls enclose.");
-  add_value(command, "--format", options->format, "stl|obj|glb", "Format of the hulls.")
+  add_choice(command, "--from", options.hulls.from, geometry_names(), "Geometry of each link that the hulls enclose.");
+  add_value(command, "--format", options.format, "stl|obj|glb", "Format of the hulls.")
       ->transform(one_of("--format", {"stl", "obj", "glb"}))
       ->capture_default_str();
-  add_value(command, "--package", options->package, "NAME",
+  add_value(command, "--package", options.package, "NAME",
             "Make the folder a ROS package of this name, which alone is the robot: with package.xml, copies of the "
             "meshes, textures and other files that the robot names, and package:// URIs. What is not found stays as it "
             "is, and the summary names it.")
       ->check([](const std::string& name) { return name.empty() ? std::string("--package needs a name") : ""; });
   CLI::Option* const to =
-      add_value(command, "--to", options->to, "mjcf",
+      add_value(command, "--to", options.to, "mjcf",
                 "Also write the robot, a URDF file, as MJCF: ROBOT.xml, for MuJoCo. It has the masses, joints and "
                 "colours of the file, the new collision geometry, its visual meshes as STL or OBJ files in "
                 "meshes/visual, and no "
                 "contacts between the pairs of links in the SRDF.")
           ->transform(one_of("--to", {"mjcf"}));
-  command.add_flag("--tight", options->hulls.tight, "Build tight hulls: least volume, but some 4 times as slow.");
-  command.add_flag("--skip-missing", options->hulls.skip_missing,
+  command.add_flag("--tight", options.hulls.tight, "Build tight hulls: least volume, but some 4 times as slow.");
+  command.add_flag("--skip-missing", options.hulls.skip_missing,
                    "Leave links whose mesh files are not found as they are: nothing is proven of them, and the exit "
                    "code does not tell. Otherwise missing files are an error.");
   CLI::Option* const certificate =
-      command.add_flag("--certificate", options->certificate,
+      command.add_flag("--certificate", options.certificate,
                        "Also write a certificate beside each hull, or the pieces or spheres of a link: a file with "
                        "which prohull_check, a program of one C file that shares nothing with this one, decides again "
                        "what is proven (docs/certificate.md). It is about the mesh file that the robot names, or else "
                        "about a copy of the link's triangles in the folder, which report.json names. ROBOT.phmotion is "
                        "the certificate of the pairs of links that never meet, for prohull_check_motion.");
   CLI::Option* const dry_run =
-      command.add_flag("--dry-run", options->dry_run, "Say what would be done with each link, and write nothing.");
-  command.add_flag("--no-pictures", options->no_pictures,
+      command.add_flag("--dry-run", options.dry_run, "Say what would be done with each link, and write nothing.");
+  command.add_flag("--no-pictures", options.no_pictures,
                    "Write the report without pictures, and no view.html, which is faster.");
-  add_value(command, "--cache", options->cache, "DIR",
+  add_value(command, "--cache", options.cache, "DIR",
             "Folder that keeps hulls for the next run. Otherwise this is prohull in the user's folder for caches.");
-  command.add_flag("--no-cache", options->no_cache, "Build all hulls anew, and keep none.");
-  add_threads_option(command, options->threads, "The result is the same for any number.");
-  CLI::Option* const write_budgets = add_budgets(command, *options);
-  add_motion(command, *options);
-  CLI::Option* const check = add_check(command, *options);
+  command.add_flag("--no-cache", options.no_cache, "Build all hulls anew, and keep none.");
+  add_threads_option(command, options.threads, "The result is the same for any number.");
+  CLI::Option* const write_budgets = add_budgets(command, options);
+  add_motion(command, options);
+  CLI::Option* const check = add_check(command, options);
   check->excludes(out)->excludes(dry_run)->excludes(write_budgets)->excludes(certificate)->excludes(to);
   write_budgets->excludes(out)->excludes(dry_run);
   add_examples(
@@ -505,7 +503,6 @@ void add_urdf(CLI::App& app, Run& run) {
        "prohull urdf arm.urdf --write-budgets budgets.yaml", "prohull urdf arm.urdf -o arm_safe --budgets budgets.yaml",
        "prohull urdf arm.urdf --check --allow 0.5mm --junit leaks.xml", "prohull urdf arm.urdf --check --srdf arm.srdf",
        "prohull urdf model.sdf -o model_safe --format obj"});
-  command.callback([options, &run] { run = [options] { return run_urdf(*options); }; });
 }
 
 }  // namespace prohull::cli

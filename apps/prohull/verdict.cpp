@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "command.h"
-#include "prohull/detail/text.h"
 
 namespace prohull::cli {
 

@@ -256,11 +256,9 @@ int run_verify_folders(const VerifyOptions& options) {
 
 int run_verify(const VerifyOptions& options) {
   if (!options.more.empty())
-    throw InputError(Defect::InvalidOption,
-                     "these are more than two files: with --union the last one is ORIGINAL, and all others are pieces");
-  if (!options.link.empty())
-    throw InputError(Defect::InvalidOption, "--link picks a link of files of pieces: use it with --union");
-  if (options.inside) throw InputError(Defect::InvalidOption, "--inside is for spheres: use it with --union");
+    refuse("these are more than two files: with --union the last one is ORIGINAL, and all others are pieces");
+  if (!options.link.empty()) refuse("--link picks a link of files of pieces: use it with --union");
+  if (options.inside) refuse("--inside is for spheres: use it with --union");
   if (std::filesystem::is_directory(options.hull) && std::filesystem::is_directory(options.original))
     return run_verify_folders(options);
   const Judged judged = judge(options);
@@ -284,67 +282,70 @@ void print_worst(std::size_t faces_outside, const std::string& mesh, const std::
 }
 
 void add_verify(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<VerifyOptions>();
-  CLI::App& command = *app.add_subcommand(
-      "verify",
+  const auto [command, options] = add_command<VerifyOptions>(
+      app, run, "verify",
       "Decides exactly whether a hull encloses a mesh, and exits with code 1 if it does not. It shares no code with "
       "the construction of hulls. Two mesh files are compared; a .phull file is a proof, which is replayed. The solid "
       "of the mesh must be enclosed, and every triangle covered. Of a mesh that is not closed, only the latter is "
       "asked, unless --open-shells closes it. A hull whose faces look inwards is refused.\n"
-      "With --union it is decided whether convex pieces together, or spheres together, cover a mesh.");
-  add_value(command, "hull", options->hull, "HULL",
+      "With --union it is decided whether convex pieces together, or spheres together, cover a mesh.",
+      [](VerifyOptions chosen) {
+        chosen.hull_input.format = chosen.original_input.format;  // one of them may be standard input
+        return chosen.is_union ? run_verify_union(chosen) : run_verify(chosen);
+      });
+  add_value(command, "hull", options.hull, "HULL",
             std::string("Mesh or .phull file; with --union a file of pieces. ") + kMeshFiles)
       ->required();
-  add_value(command, "original", options->original, "ORIGINAL",
+  add_value(command, "original", options.original, "ORIGINAL",
             "Mesh that the hull should enclose, in any of these formats. Of two folders, each mesh of ORIGINAL is "
             "compared with the mesh of the same name in HULL.")
       ->required();
-  add_value(command, "more", options->more, "MORE", "With --union: more files of pieces. The last file is ORIGINAL.");
+  add_value(command, "more", options.more, "MORE", "With --union: more files of pieces. The last file is ORIGINAL.");
   CLI::Option* const is_union = command.add_flag(
-      "--union", options->is_union,
+      "--union", options.is_union,
       "Decide whether the union of pieces covers every triangle of ORIGINAL and, if that is closed, its inside. Pieces "
       "may touch and overlap. Each connected component of a mesh file is a piece; STL joins those that share corners. "
       "Of a robot (.urdf, .sdf, .xml) the pieces are the collision geometry of a link: meshes, boxes and spheres. A "
       ".yaml file of collision spheres, as cuRobo reads it, and the .json file of `prohull spheres` hold spheres.");
-  add_value(command, "--link", options->link, "NAME",
+  add_value(command, "--link", options.link, "NAME",
             "With --union: the link whose pieces are meant, where a robot or a file of spheres has several.");
-  command.add_flag("--inside", options->inside,
+  command.add_flag("--inside", options.inside,
                    "With --union and spheres: the inside of ORIGINAL must be covered too, not only its triangles.");
-  add_format_option(command, options->original_input);
-  add_unit_options(command, options->original_input, "ORIGINAL (the same as `prohull build` was given for it)");
-  add_value(command, "--offset", options->offset, "X,Y,Z",
+  add_format_option(command, options.original_input);
+  add_unit_options(command, options.original_input, "ORIGINAL (the same as `prohull build` was given for it)");
+  add_value(command, "--offset", options.offset, "X,Y,Z",
             "Subtract these three numbers from the coordinates of ORIGINAL, after --unit or --scale: the offset that "
             "`prohull build --recenter` has told.");
-  add_choice(command, "--side", options->side, hull_side_names(),
+  add_choice(command, "--side", options.side, hull_side_names(),
              "Side on which the hull lies. With inner it is decided whether ORIGINAL encloses HULL. A .phull file "
              "knows its side.");
   add_choice(
-      command, "--open-shells", options->open_shells, open_shells_names(),
+      command, "--open-shells", options.open_shells, open_shells_names(),
       "What to do with openings of ORIGINAL. close gives them caps, as `prohull build` does, so that what they lead "
       "into must be enclosed too, and so that an inner hull has an inside to lie in; keep asks for the triangles only.")
       ->excludes(is_union);
-  command.add_flag("--solid-only", options->solid_only,
+  command.add_flag("--solid-only", options.solid_only,
                    "Ask only for the solid that a closed mesh bounds. Triangles of folds and of parts that are inside "
                    "out bound no part of it, and may stick out.");
-  command.add_flag("--finite-only", options->finite_only,
+  command.add_flag("--finite-only", options.finite_only,
                    "Leave out triangles of ORIGINAL with a coordinate that is NaN or infinite. Without this option the "
                    "answer is no if there are any.");
-  command.add_flag("--any-scale", options->any_scale,
+  command.add_flag("--any-scale", options.any_scale,
                    "Also say yes where the outer one of the two is 9 times as large as the other or more, along each "
                    "axis (20 times, if the hull has fewer than 12 faces or is an inner one). Without this option the "
                    "exit code is then 1: their units seem to differ.");
-  add_length(command, "--gap", options->gap,
+  add_length(command, "--gap", options.gap,
              "Also decide whether the hull keeps this distance from ORIGINAL everywhere, at least. Not for .phull "
              "files, whose levels touch.",
              "ORIGINAL")
       ->excludes(is_union);
   add_optional_number(
-      command, "--steps", options->max_steps, {1, 1e15},
+      command, "--steps", options.max_steps, {1, 1e15},
       "Largest number of steps of each search for parts that lie outside, for holes, and for faces nearer than the "
       "gap: "
       "what is left then is undecided, and the exit code is 4 if nothing else says no. Without this option it is two "
       "billion and 2,000 for each face of ORIGINAL, which take some minutes.");
-  add_report_option(command, options->report);
+  add_report_option(command, options.report);
   add_examples(
       command,
       {"prohull verify hull.stl horse.ply", "prohull verify horse.phull horse.ply",
@@ -355,10 +356,6 @@ void add_verify(CLI::App& app, Run& run) {
        "prohull verify --union a.stl b.stl c.stl part.stl", "prohull verify --union spheres.yaml part.stl --inside",
        "prohull verify --union arm_pieces.urdf arm.stl",
        "prohull verify --union robot_spheres.yaml forearm.stl --link forearm"});
-  command.callback([options, &run] {
-    options->hull_input.format = options->original_input.format;  // one of them may be standard input
-    run = [options] { return options->is_union ? run_verify_union(*options) : run_verify(*options); };
-  });
 }
 
 }  // namespace prohull::cli

@@ -128,8 +128,7 @@ std::vector<std::filesystem::path> files_of_pieces(const VerifyOptions& options)
 }  // namespace
 
 int run_verify_union(const VerifyOptions& options) {
-  if (options.side != HullSide::Outer)
-    throw InputError(Defect::InvalidOption, "--union asks whether pieces cover ORIGINAL: leave out --side");
+  if (options.side != HullSide::Outer) refuse("--union asks whether pieces cover ORIGINAL: leave out --side");
   const std::vector<std::filesystem::path> files = files_of_pieces(options);
   const std::filesystem::path last = options.more.empty() ? options.original : options.more.back();
   std::vector<std::filesystem::path> inputs = files;

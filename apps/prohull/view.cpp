@@ -58,7 +58,7 @@ view::Shown read_parts(const ViewOptions& options) {
   Union found = read_union(options.in, options.input, "");
   if (found.pieces.empty()) return {name, std::move(found.balls)};
   if (found.balls.empty()) return {name, std::move(found.pieces)};
-  throw InputError(Defect::InvalidOption, name + ": a page shows pieces or spheres, but not both");
+  refuse(name + ": a page shows pieces or spheres, but not both");
 }
 
 view::Shown read_shown(const ViewOptions& options, const std::filesystem::path& path) {
@@ -114,7 +114,7 @@ namespace {
 
 int run_view(const ViewOptions& options) {
   if (options.in.size() > view::kMostShown && !options.is_union)
-    throw InputError(Defect::InvalidOption, fmt::format("a page shows {} files at most", view::kMostShown));
+    refuse(fmt::format("a page shows {} files at most", view::kMostShown));
   require_page(options.out);
   std::vector<std::filesystem::path> inputs = options.in;
   inputs.push_back(options.original);
@@ -133,37 +133,40 @@ int run_view(const ViewOptions& options) {
 }  // namespace
 
 void add_view(CLI::App& app, Run& run) {
-  const auto options = std::make_shared<ViewOptions>();
-  CLI::App& command =
-      *app.add_subcommand("view",
-                          "Writes a page of HTML that shows hulls in any browser, in three dimensions. The page is one "
-                          "file. It needs no network, so that it can be mailed and archived. Verdicts and counts on it "
-                          "are exact, and distances are proven bounds.");
-  add_value(command, "in", options->in, "IN",
+  const auto [command, options] = add_command<ViewOptions>(
+      app, run, "view",
+      "Writes a page of HTML that shows hulls in any browser, in three dimensions. The page is one "
+      "file. It needs no network, so that it can be mailed and archived. Verdicts and counts on it "
+      "are exact, and distances are proven bounds.",
+      [](ViewOptions chosen) {
+        chosen.original_input.format = chosen.input.format;  // one of them may be standard input
+        return run_view(chosen);
+      });
+  add_value(command, "in", options.in, "IN",
             std::string("Hulls, meshes or robots to show. Of a .phull file a slider shows all levels; of a robot "
                         "(.urdf, .xacro, .sdf, .mjcf, .xml), sliders move the joints, and links that collide are lit: "
                         "pairs that the .srdf file beside it disables may touch. ") +
                 kMeshFiles)
       ->required();
-  add_value(command, "-o,--out", options->out, "OUT.html",
+  add_value(command, "-o,--out", options.out, "OUT.html",
             "File for the page, .html. With - it goes to standard output.")
       ->required();
   CLI::Option* const original = add_value(
-      command, "--original", options->original, "M",
+      command, "--original", options.original, "M",
       "Mesh that each IN is a hull of. The page then tells whether it encloses that mesh, how far it is from it "
       "and where. Without this option, a .phull file is compared with its own finest level.");
-  add_format_option(command, options->input);
-  add_package_path_option(command, options->robots.package_paths);
-  add_unit_options(command, options->original_input, "M (the same as `prohull build` was given for it)");
+  add_format_option(command, options.input);
+  add_package_path_option(command, options.robots.package_paths);
+  add_unit_options(command, options.original_input, "M (the same as `prohull build` was given for it)");
   for (const char* const option : {"--scale", "--unit"}) command.get_option(option)->needs(original);
-  add_choice(command, "--side", options->side, hull_side_names(),
+  add_choice(command, "--side", options.side, hull_side_names(),
              "Side on which the hulls lie. With inner, M should enclose IN. A .phull file knows its side.");
-  command.add_flag("--union", options->is_union,
+  command.add_flag("--union", options.is_union,
                    "IN are files of pieces or spheres that cover M together, as `prohull verify --union` reads them: "
                    "each connected component of a mesh is a piece.");
-  command.add_flag("--solid-only", options->solid_only,
+  command.add_flag("--solid-only", options.solid_only,
                    "Ask only for the solid that a closed mesh bounds, as `prohull verify --solid-only` does.");
-  add_threads_option(command, options->threads, "The page is the same for any number.");
+  add_threads_option(command, options.threads, "The page is the same for any number.");
   add_examples(command,
                {"prohull view horse.phull -o horse.html", "prohull view hull.stl --original horse.ply -o view.html",
                 "prohull view coarse.stl fine.stl --original part.stl -o compare.html",
@@ -172,10 +175,6 @@ void add_view(CLI::App& app, Run& run) {
                 "prohull view arm_safe/arm.urdf -o arm.html",
                 "prohull view occluder.obj --original rock.obj --side inner -o occluder.html",
                 "prohull view arm_collision.stl --original arm.stl --unit mm -o link.html"});
-  command.callback([options, &run] {
-    options->original_input.format = options->input.format;  // one of them may be standard input
-    run = [options] { return run_view(*options); };
-  });
 }
 
 }  // namespace prohull::cli

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "prohull/detail/names.h"
 #include "prohull/detail/symmetry.h"

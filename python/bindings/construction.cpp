@@ -15,7 +15,6 @@
 #include "prohull/detail/mesh_part.h"
 #include "prohull/detail/told_notes.h"
 #include "prohull/enclosing_hull.h"
-#include "verdicts.h"
 #include "watch.h"
 
 namespace py = pybind11;

@@ -18,7 +18,6 @@
 #include "prohull/union_verification.h"
 #include "robot/files/piece_files.h"
 #include "robot/files/sphere_file.h"
-#include "verdicts.h"
 #include "watch.h"
 
 namespace py = pybind11;

@@ -10,7 +10,6 @@
 
 #include "arrays.h"
 #include "module.h"
-#include "prohull/error.h"
 #include "view/page.h"
 #include "watch.h"
 

@@ -7,7 +7,7 @@
 
 #include "arrays.h"
 #include "module.h"
-#include "prohull/error.h"
+#include "prohull/detail/refuse.h"
 #include "robot/files/robot_file.h"
 #include "robot/motion/kinematics.h"
 #include "robot/motion/motion.h"
@@ -95,8 +95,7 @@ py::dict facts_of(const PathChecker& checker, const JointPath& path, const PathP
 
 py::dict proof_of(const PathChecker& checker, PathRows rows, const PathProofOptions& options,
                   const py::object& progress) {
-  if (checker.pairs.empty())
-    throw InputError(Defect::InvalidOption, "there is no pair of bodies that could meet: all are adjacent, or ignored");
+  if (checker.pairs.empty()) refuse("there is no pair of bodies that could meet: all are adjacent, or ignored");
   const JointPath path(checker.file->robot, std::move(rows));
   const std::vector<PathProof> proofs = watched(progress, options, [&](const auto& how) {
     return prove_paths(checker.file->robot, {&path, 1}, checker.made.bodies, checker.pairs, how);

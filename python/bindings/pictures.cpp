@@ -6,7 +6,7 @@
 #include "arrays.h"
 #include "module.h"
 #include "prohull/detail/finite.h"
-#include "prohull/error.h"
+#include "prohull/detail/refuse.h"
 #include "render/compose.h"
 #include "render/draw.h"
 #include "render/pieces.h"
@@ -36,9 +36,8 @@ std::string png_of(render::PanelPlan plan, const TriangleMesh& mesh, const Trian
 
 void check_size(int width, int height) {
   if (std::min(width, height) < 1 || std::max(width, height) > render::Image::kMaxSide)
-    throw InputError(Defect::InvalidOption, "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                                                " pixels: expected sides of 1 to " +
-                                                std::to_string(render::Image::kMaxSide));
+    refuse("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+           " pixels: expected sides of 1 to " + std::to_string(render::Image::kMaxSide));
 }
 
 /// A PNG picture of a mesh, drawn as a hull if there is something inside.

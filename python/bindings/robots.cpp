@@ -3,7 +3,6 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
@@ -14,7 +13,7 @@
 
 #include "arrays.h"
 #include "module.h"
-#include "prohull/error.h"
+#include "prohull/detail/refuse.h"
 #include "robot/check/check.h"
 #include "robot/check/disabled_pairs.h"
 #include "robot/files/robot_file.h"
@@ -27,7 +26,6 @@
 #include "robot/motion/mujoco_files.h"
 #include "robot/report/pictures.h"
 #include "robot/report/report.h"
-#include "verdicts.h"
 #include "view/shown_robot.h"
 #include "watch.h"
 
@@ -60,7 +58,7 @@ py::object matrix(const Pose& pose) { return matrices({pose})[py::int_(0)]; }
 Geometry geometry_called(const std::string& name) {
   if (name == "visual") return Geometry::Visual;
   if (name == "collision") return Geometry::Collision;
-  throw InputError(Defect::InvalidOption, "geometry '" + name + "': expected visual or collision");
+  refuse("geometry '" + name + "': expected visual or collision");
 }
 
 SharedFile read(const std::filesystem::path& path, std::vector<std::filesystem::path> package_paths) {

@@ -15,10 +15,8 @@
 #include "prohull/error.h"
 #include "prohull/sweep.h"
 #include "robot/files/robot_file.h"
+#include "robot/motion/kinematics.h"
 #include "robot/motion/path_sweep.h"
-#include "robot/motion/poses.h"
-#include "robot/motion/workspace_sweep.h"
-#include "verdicts.h"
 #include "watch.h"
 
 namespace py = pybind11;

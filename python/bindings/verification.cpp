@@ -9,12 +9,11 @@
 #include "module.h"
 #include "prohull/detail/closed_original.h"
 #include "prohull/detail/float32_hull.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/detail/summary.h"
 #include "prohull/distance.h"
 #include "prohull/enclosure.h"
-#include "prohull/error.h"
 #include "prohull/verification.h"
-#include "verdicts.h"
 #include "watch.h"
 
 namespace py = pybind11;
@@ -48,7 +47,7 @@ py::dict facts_of(const Verification& found, double gap) {
 
 HullSide side_called(const std::string& name) {
   if (const auto side = value_of(hull_side_names(), name)) return *side;
-  throw InputError(Defect::InvalidOption, "side='" + name + "': expected one of " + joined(hull_side_names()));
+  refuse("side='" + name + "': expected one of " + joined(hull_side_names()));
 }
 
 template <class Hull>

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <future>
 
-#include "prohull/error.h"
+#include "prohull/detail/refuse.h"
 
 namespace prohull::python {
 namespace {
@@ -20,8 +20,8 @@ void tell(const pybind11::object& progress, const std::string& stage, double fra
 void watch_over(const pybind11::object& progress, const std::function<void(Watch&)>& work) {
   constexpr std::chrono::milliseconds kLook{50};
   if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0)
-    throw InputError(Defect::InvalidOption, "progress=" + std::string(pybind11::repr(progress)) +
-                                                ": expected a function of a stage and a fraction, or None");
+    refuse("progress=" + std::string(pybind11::repr(progress)) +
+           ": expected a function of a stage and a fraction, or None");
   Watch watch;
   tell(progress, "start", 0);
   std::future<void> result = std::async(std::launch::async, [&] { work(watch); });

@@ -8,7 +8,6 @@
 #include "robot/files/joint_forest.h"
 #include "robot/files/mjcf_model.h"
 #include "robot/files/xml_values.h"
-#include "robot/mimics.h"
 #include "robot/motion/kinematics.h"
 #include "robot/transform.h"
 

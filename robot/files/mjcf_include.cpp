@@ -1,4 +1,4 @@
-#include "robot/files/mjcf_include.h"
+#include "robot/files/mjcf.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "prohull/error.h"
-#include "robot/files/merged_text.h"
+#include "robot/files/xml_lines.h"
 
 namespace fs = std::filesystem;
 

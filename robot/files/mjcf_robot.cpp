@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "prohull/detail/refuse.h"
 #include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "robot/files/inertial.h"
@@ -59,9 +60,10 @@ class MjcfRobotWriter {
   MjcfRobot write(std::span<const std::pair<std::size_t, std::size_t>> apart) {
     const auto root = std::ranges::find(above_, nullptr) - above_.begin();
     if (deepest() > kDeepest)
-      throw InputError(Defect::InvalidOption, fmt::format("{}: more than {} links hang below each other, and MuJoCo "
-                                                          "reads no elements that are nested so deep",
-                                                          document_.file(), kDeepest));
+      refuse(
+          fmt::format("{}: more than {} links hang below each other, and MuJoCo "
+                      "reads no elements that are nested so deep",
+                      document_.file(), kDeepest));
     add_body(static_cast<std::size_t>(root), 1);
     std::string contacts, equalities;
     for (const auto& [a, b] : apart)
@@ -366,8 +368,7 @@ class MjcfRobotWriter {
 
 MjcfRobot mjcf_of(const RobotFile& urdf, const Robot& robot, std::span<const std::pair<std::size_t, std::size_t>> apart,
                   const MujocoMesh& mesh) {
-  if (urdf.format != RobotFormat::Urdf)
-    throw InputError(Defect::InvalidOption, fmt::format("{}: only URDF becomes MJCF", urdf.path.string()));
+  if (urdf.format != RobotFormat::Urdf) refuse(fmt::format("{}: only URDF becomes MJCF", urdf.path.string()));
   return MjcfRobotWriter(urdf, robot, mesh).write(apart);
 }
 

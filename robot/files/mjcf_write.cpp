@@ -4,12 +4,12 @@
 #include <array>
 #include <set>
 
+#include "prohull/detail/refuse.h"
 #include "prohull/error.h"
 #include "robot/files/mjcf.h"
 #include "robot/files/mjcf_model.h"
 #include "robot/files/xml_lines.h"
 #include "robot/files/xml_values.h"
-#include "robot/transform.h"
 
 namespace fs = std::filesystem;
 
@@ -350,11 +350,9 @@ class MjcfWriter {
   std::string add_mesh(const std::string& hull, const MjcfBody& body, const MjcfElement* same) {
     const std::string extension = fs::path(hull).extension().string();
     if (extension != ".stl" && extension != ".obj")
-      throw InputError(Defect::InvalidOption, fmt::format("{}: MuJoCo reads no {} files; write the hulls as stl or obj",
-                                                          document_.file(), extension));
+      refuse(fmt::format("{}: MuJoCo reads no {} files; write the hulls as stl or obj", document_.file(), extension));
     if (hull.find("://") != std::string::npos)
-      throw InputError(Defect::InvalidOption,
-                       fmt::format("{}: MuJoCo reads paths, but no URIs such as {}", document_.file(), hull));
+      refuse(fmt::format("{}: MuJoCo reads paths, but no URIs such as {}", document_.file(), hull));
     refuse_in_main("fromto");
     std::string name = unique_name(body.name + "_hull", mesh_names_);
     assets_.push_back(

@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "prohull/detail/extension.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/error.h"
 #include "robot/files/xml.h"
 #include "robot/transform.h"
 
 namespace prohull::robot {
 namespace {
-
-[[noreturn]] void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
 
 /// Whether a reader of XML finds the same text again.
 bool is_kept_by_xml(const std::string& text) {

@@ -13,10 +13,8 @@
 #include "prohull/error.h"
 #include "robot/files/mesh_references.h"
 #include "robot/files/mjcf.h"
-#include "robot/files/mjcf_include.h"
 #include "robot/files/packages.h"
 #include "robot/files/sdf.h"
-#include "robot/files/sdf_include.h"
 #include "robot/files/urdf.h"
 #include "robot/files/xacro.h"
 #include "robot/files/xml.h"
@@ -43,7 +41,7 @@ constexpr std::array<Format, 3> kFormats{
      {RobotFormat::Sdf, "sdf", read_sdf, with_included_models, sdf_with_collisions},
      {RobotFormat::Mjcf, "mujoco", read_mjcf, with_included_files, mjcf_with_collisions}}};
 
-[[noreturn]] void refuse(Defect defect, const fs::path& path, const std::string& why) {
+[[noreturn]] void refuse_file(Defect defect, const fs::path& path, const std::string& why) {
   throw InputError(defect, fmt::format("{}: {}", path.string(), why));
 }
 
@@ -64,22 +62,23 @@ bool may_be_xml(std::string_view text) {
 
 /// Called with the begin of a file, or all of it.
 void refuse_other_formats(const fs::path& path, std::string_view text) {
-  if (text.find_first_not_of(" \t\r\n") == text.npos) refuse(Defect::Malformed, path, "the file is empty");
+  if (text.find_first_not_of(" \t\r\n") == text.npos) refuse_file(Defect::Malformed, path, "the file is empty");
   if (is_usd(path, text))
-    refuse(Defect::UnknownFormat, path,
-           "USD is not read; export the robot as URDF or MJCF, as Isaac Sim and the USD converters of MuJoCo do");
+    refuse_file(Defect::UnknownFormat, path,
+                "USD is not read; export the robot as URDF or MJCF, as Isaac Sim and the USD converters of MuJoCo do");
   if (!may_be_xml(text))
-    refuse(Defect::UnknownFormat, path,
-           "no robot: URDF, SDF and MJCF are XML, and this file is not; a mesh is read by prohull build");
+    refuse_file(Defect::UnknownFormat, path,
+                "no robot: URDF, SDF and MJCF are XML, and this file is not; a mesh is read by prohull build");
 }
 
 [[noreturn]] void refuse_size(const fs::path& path) {
-  refuse(Defect::Malformed, path, fmt::format("too large for a robot: more than {} MiB", kMostBytes >> 20));
+  refuse_file(Defect::Malformed, path, fmt::format("too large for a robot: more than {} MiB", kMostBytes >> 20));
 }
 
 std::string read_text(const fs::path& path) {
   std::error_code error;
-  if (fs::is_directory(path, error)) refuse(Defect::CannotRead, path, "this is a folder; name the robot's file in it");
+  if (fs::is_directory(path, error))
+    refuse_file(Defect::CannotRead, path, "this is a folder; name the robot's file in it");
   const std::uintmax_t size_on_disk = fs::file_size(path, error);
   if (!error && size_on_disk > kMostBytes) refuse_size(path);
   std::ifstream stream(path, std::ios::binary);
@@ -94,7 +93,7 @@ std::string read_text(const fs::path& path) {
     if (size == 0) refuse_other_formats(path, text);
     if (text.size() > kMostBytes) refuse_size(path);
   }
-  if (stream.bad()) refuse(Defect::CannotRead, path, "cannot be read to its end");
+  if (stream.bad()) refuse_file(Defect::CannotRead, path, "cannot be read to its end");
   return text;
 }
 
@@ -102,8 +101,9 @@ RobotFile read_document(const XmlDocument& document, const fs::path& path, const
   const std::string& root = document.root().name;
   const auto* const format = std::ranges::find(kFormats, root, &Format::root);
   if (format == kFormats.end())
-    refuse(Defect::UnknownFormat, path,
-           fmt::format("no robot: its root is <{}>; that of URDF is <robot>, of SDF <sdf>, of MJCF <mujoco>", root));
+    refuse_file(
+        Defect::UnknownFormat, path,
+        fmt::format("no robot: its root is <{}>; that of URDF is <robot>, of SDF <sdf>, of MJCF <mujoco>", root));
   const Packages packages(path, options);
   const auto read = [&](const XmlDocument& whole) {
     RobotFile file = format->read(whole, packages);
@@ -137,9 +137,10 @@ RobotFile read_robot(const fs::path& path, const FileOptions& options) {
   const XmlDocument document(read_text(path), path.string());
   if (!is_xacro(document)) return read_document(document, path, options);
   if (options.no_outside_files)
-    refuse(Defect::CannotRead, path,
-           "the macros of a xacro file may read any file, which --no-outside-files refuses; expand it elsewhere: xacro "
-           "FILE > robot.urdf");
+    refuse_file(
+        Defect::CannotRead, path,
+        "the macros of a xacro file may read any file, which --no-outside-files refuses; expand it elsewhere: xacro "
+        "FILE > robot.urdf");
   std::string text = expanded_by_xacro(path);
   const std::string name = path.string() + ", expanded by xacro";
   refuse_other_formats(name, text);

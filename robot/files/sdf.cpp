@@ -4,15 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "robot/files/joint_forest.h"
 #include "robot/files/sdf_frames.h"
-#include "robot/files/sdf_include.h"
-#include "robot/files/sdf_model.h"
 #include "robot/files/xml_values.h"
-#include "robot/mimics.h"
+#include "robot/motion/kinematics.h"
 
 namespace prohull::robot {
 namespace {

@@ -1,4 +1,4 @@
-#include "robot/files/sdf_include.h"
+#include "robot/files/sdf.h"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,9 @@
 #include <fstream>
 #include <iterator>
 #include <utility>
-#include <vector>
 
-#include "robot/files/merged_text.h"
 #include "robot/files/named_files.h"
 #include "robot/files/sdf_frames.h"
-#include "robot/files/sdf_model.h"
 #include "robot/files/xml_lines.h"
 
 namespace fs = std::filesystem;

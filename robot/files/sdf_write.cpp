@@ -6,7 +6,6 @@
 #include "robot/files/named_files.h"
 #include "robot/files/sdf.h"
 #include "robot/files/sdf_frames.h"
-#include "robot/files/sdf_model.h"
 #include "robot/files/xml_lines.h"
 #include "robot/files/xml_values.h"
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "prohull/detail/refuse.h"
 #include "prohull/error.h"
 #include "robot/files/yaml_reader.h"
 #include "robot/json.h"
@@ -106,7 +107,7 @@ std::string yaml_decimal(double number) {
 std::string yaml_quoted(const std::string& name) {
   std::string text = quoted(name);
   if (YAML::Load(text).as<std::string>() != name)
-    throw InputError(Defect::InvalidOption, fmt::format("'{}' is no name of a link: it is not UTF-8", name));
+    refuse(fmt::format("'{}' is no name of a link: it is not UTF-8", name));
   return text;
 }
 

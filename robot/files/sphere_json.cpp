@@ -1,7 +1,7 @@
 // Apart from sphere_file.cpp, as the browser has no YAML.
 #include <fmt/format.h>
 
-#include "prohull/error.h"
+#include "prohull/detail/refuse.h"
 #include "robot/files/sphere_file.h"
 #include "robot/json.h"
 
@@ -11,7 +11,7 @@ std::string sphere_json(const LinkBalls& link) {
   try {
     return nlohmann::json{{"link", link.link}, {"spheres", link.balls}}.dump(2) + "\n";
   } catch (const nlohmann::json::exception&) {
-    throw InputError(Defect::InvalidOption, fmt::format("'{}' is no name of a link: it is not UTF-8", link.link));
+    refuse(fmt::format("'{}' is no name of a link: it is not UTF-8", link.link));
   }
 }
 

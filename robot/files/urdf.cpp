@@ -13,7 +13,7 @@
 
 #include "prohull/detail/text.h"
 #include "prohull/error.h"
-#include "robot/mimics.h"
+#include "robot/motion/kinematics.h"
 #include "robot/transform.h"
 
 namespace prohull::robot {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "prohull/error.h"
+#include "prohull/detail/refuse.h"
 #include "robot/files/named_files.h"
 #include "robot/files/urdf.h"
 #include "robot/files/xml_lines.h"
@@ -101,8 +101,7 @@ class UrdfWriter {
   const XmlElement& last_shape(std::size_t link) const {
     const Elements visual = links_[link]->children_called("visual");
     const Elements shapes = visual.empty() ? links_[link]->children_called("collision") : visual;
-    if (shapes.empty())
-      throw InputError(Defect::InvalidOption, fmt::format("link '{}' has no geometry", robot_.links[link].name));
+    if (shapes.empty()) refuse(fmt::format("link '{}' has no geometry", robot_.links[link].name));
     return *shapes.back();
   }
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "prohull/detail/refuse.h"
 #include "prohull/error.h"
 #include "prohull/length.h"
 #include "robot/files/yaml_reader.h"
@@ -175,10 +176,10 @@ std::string budgets_text(const Robot& robot, const LinkHullOptions& options) {
 double length_of(std::string_view text, const std::string& what) {
   const auto length = prohull::length_of(text);
   if (!length || length->unit == "%")
-    throw InputError(Defect::InvalidOption,
-                     fmt::format("{}: '{}' is no length; say a number in metres, or one with a unit, as 2mm, 0.2cm, "
-                                 "0.002m or 0.08in",
-                                 what, text));
+    refuse(
+        fmt::format("{}: '{}' is no length; say a number in metres, or one with a unit, as 2mm, 0.2cm, "
+                    "0.002m or 0.08in",
+                    what, text));
   return length->of(0);
 }
 

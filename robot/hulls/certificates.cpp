@@ -10,7 +10,7 @@
 
 #include "prohull/certificate.h"
 #include "prohull/detail/extension.h"
-#include "prohull/error.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/mesh_io.h"
 #include "robot/files/sphere_file.h"
 #include "robot/link_triangles.h"
@@ -61,8 +61,7 @@ path with_suffix(const path& stem, const char* suffix) { return stem.generic_str
 
 void check_certified_format(const std::string& format) {
   if (!is_read_by_checkers("hull." + format))
-    throw InputError(Defect::InvalidOption,
-                     fmt::format("--certificate: prohull_check reads no .{} files; choose stl or obj", format));
+    refuse(fmt::format("--certificate: prohull_check reads no .{} files; choose stl or obj", format));
 }
 
 LinkCertificates link_certificates(const Robot& robot, std::span<const LinkHulls> links, const RobotFiles& written,

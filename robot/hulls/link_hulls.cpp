@@ -11,6 +11,7 @@
 #include "prohull/convex_cover.h"
 #include "prohull/convex_hull.h"
 #include "prohull/detail/float32_hull.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/error.h"
 #include "prohull/sphere_cover.h"
 #include "robot/form_measures.h"
@@ -46,11 +47,8 @@ struct Plan {
 void require_links(const Robot& robot, const LinkHullOptions& options) {
   for (const auto& [name, budget] : options.budgets)
     if (std::ranges::find(robot.links, name, &Link::name) == robot.links.end())
-      throw InputError(Defect::InvalidOption,
-                       fmt::format("a budget is for the link '{}', which {} does not have", name, robot.name));
+      refuse(fmt::format("a budget is for the link '{}', which {} does not have", name, robot.name));
 }
-
-[[noreturn]] void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
 
 /// `of` says which links have the budget.
 void require_possible(const std::string& of, const Budget& budget) {

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "prohull/detail/summary.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 #include "robot/files/packages.h"
@@ -199,21 +199,20 @@ std::string robot_stem(const RobotFile& file) {
 
 void check_options(const RobotFile& file, const WriteOptions& options) {
   if (!options.package.empty() && !is_package_name(options.package))
-    throw InputError(Defect::InvalidOption,
-                     fmt::format("'{}' is no name of a package: it begins with a lower-case letter, and has lower-case "
-                                 "letters, digits, _ and - only",
-                                 options.package));
+    refuse(
+        fmt::format("'{}' is no name of a package: it begins with a lower-case letter, and has lower-case "
+                    "letters, digits, _ and - only",
+                    options.package));
   if (options.to_mjcf && file.format != RobotFormat::Urdf)
-    throw InputError(Defect::InvalidOption, fmt::format("{}: only URDF becomes MJCF", file.path.string()));
+    refuse(fmt::format("{}: only URDF becomes MJCF", file.path.string()));
   if (file.format != RobotFormat::Mjcf && !options.to_mjcf) return;
   if (options.format == "stl" && std::ranges::max(options.faces) > kMostMujocoStlFaces)
-    throw InputError(Defect::InvalidOption, fmt::format("MuJoCo reads no STL files of more than {} faces; choose obj "
-                                                        "as the format, or fewer faces",
-                                                        kMostMujocoStlFaces));
-  if (options.format == "glb")
-    throw InputError(Defect::InvalidOption, "MuJoCo does not read GLB files; choose stl or obj as the format");
-  if (!options.package.empty())
-    throw InputError(Defect::InvalidOption, "MuJoCo does not know packages; leave the name of the package out");
+    refuse(
+        fmt::format("MuJoCo reads no STL files of more than {} faces; choose obj "
+                    "as the format, or fewer faces",
+                    kMostMujocoStlFaces));
+  if (options.format == "glb") refuse("MuJoCo does not read GLB files; choose stl or obj as the format");
+  if (!options.package.empty()) refuse("MuJoCo does not know packages; leave the name of the package out");
 }
 
 RobotFiles output_files(const RobotFile& file, std::span<const LinkHulls> links, const path& folder,

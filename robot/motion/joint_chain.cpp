@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "prohull/error.h"
+#include "prohull/detail/refuse.h"
 #include "robot/motion/kinematics.h"
 #include "robot/motion/sampling.h"
 #include "robot/transform.h"
@@ -151,9 +151,7 @@ void JointChain::find_ranges(const Robot& robot) {
   for (std::size_t f = 0; f < freedoms_.size(); ++f) {
     const Joint& joint = robot.joints[freedoms_[f]];
     if (!(joint.lower <= joint.upper))
-      throw InputError(
-          Defect::InvalidOption,
-          fmt::format("joint '{}' has a lower limit above its upper one, or one that is no number", joint.name));
+      refuse(fmt::format("joint '{}' has a lower limit above its upper one, or one that is no number", joint.name));
     JointRange range = allowed[freedoms_[f]];
     if (range.is_empty()) {
       obstacle_ = fmt::format(

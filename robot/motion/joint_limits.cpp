@@ -9,7 +9,7 @@
 #include <numeric>
 #include <utility>
 
-#include "robot/mimics.h"
+#include "robot/motion/kinematics.h"
 
 namespace prohull::robot {
 namespace {

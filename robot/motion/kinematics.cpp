@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "robot/mimics.h"
 #include "robot/motion/joint_limits.h"
 #include "robot/transform.h"
 
@@ -12,19 +12,8 @@ namespace prohull::robot {
 namespace {
 
 Pose motion_of(const Joint& joint, double position) {
-  switch (joint.type) {
-    case JointType::Revolute:
-    case JointType::Continuous:
-      return rotation_about(joint.axis, position);
-    case JointType::Prismatic:
-      return translation_by(joint.axis * position);
-    case JointType::Fixed:
-    case JointType::Ball:
-    case JointType::Planar:
-    case JointType::Floating:
-      break;
-  }
-  return {};
+  if (turns(joint)) return rotation_about(joint.axis, position);
+  return slides(joint) ? translation_by(joint.axis * position) : Pose{};
 }
 
 }  // namespace
@@ -81,6 +70,60 @@ std::vector<double> rest_positions(const Robot& robot) {
     if (!std::isfinite(positions.back())) positions.back() = rest;
   }
   return positions;
+}
+
+namespace {
+
+RigidMotion motion_between(const Pose& from, const Pose& to) {
+  const Pose turn = composed({to.rotation, {}}, inverse({from.rotation, {}}));
+  auto [w, x, y, z] = quaternion_of(turn);
+  RigidMotion motion{
+      .start = from, .through = from.translation, .axis = {x, y, z}, .shift = to.translation - from.translation};
+  if (w < 0) motion.axis = -motion.axis;
+  const double length = norm(motion.axis);
+  motion.angle = 2 * std::atan2(length, std::abs(w));
+  if (length > 0) motion.axis = motion.axis / length;
+  return motion;
+}
+
+}  // namespace
+
+Pose corrected(const Pose& pose) {
+  require_rigid(pose);
+  const auto [w, x, y, z] = quaternion_of(pose);
+  return pose_of_quaternion(w, x, y, z, pose.translation);
+}
+
+std::vector<RigidMotion> motions_between(std::span<const Pose> poses) {
+  if (poses.size() == 1) return {{.start = poses[0]}};
+  std::vector<RigidMotion> motions;
+  for (std::size_t i = 0; i + 1 < poses.size(); ++i) motions.push_back(motion_between(poses[i], poses[i + 1]));
+  return motions;
+}
+
+std::vector<std::size_t> leaders_first(const Robot& robot) {
+  std::vector<std::size_t> order;
+  std::vector<std::vector<std::size_t>> followers(robot.joints.size());
+  for (std::size_t j = 0; j < robot.joints.size(); ++j)
+    if (const auto& mimic = robot.joints[j].mimic)
+      followers[mimic->joint].push_back(j);
+    else
+      order.push_back(j);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::vector<std::size_t>& next = followers[order[i]];
+    order.insert(order.end(), next.begin(), next.end());
+  }
+  return order;
+}
+
+const Joint* joint_in_mimic_loop(const Robot& robot) {
+  std::vector<bool> is_ordered(robot.joints.size());
+  for (const std::size_t j : leaders_first(robot)) is_ordered[j] = true;
+  const auto left_out = std::ranges::find(is_ordered, false);
+  if (left_out == is_ordered.end()) return nullptr;
+  auto at = static_cast<std::size_t>(left_out - is_ordered.begin());
+  for (std::size_t steps = 0; steps < robot.joints.size(); ++steps) at = robot.joints[at].mimic->joint;
+  return &robot.joints[at];
 }
 
 }  // namespace prohull::robot

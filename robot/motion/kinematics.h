@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "prohull/sweep.h"
 #include "robot/model.h"
 
 namespace prohull::robot {
@@ -34,5 +35,20 @@ void follow(const Robot& robot, std::vector<double>& positions);
 
 /// Whether the joint moves the same child on, after the one that stands before it.
 bool continues_row(const Robot& robot, std::size_t joint);
+
+/// The pose with a rotation that is one but for rounding. Throws InputError as require_rigid.
+Pose corrected(const Pose& pose);
+
+/// From each pose to the next: the origin of the body's frame goes straight, and the body turns about one axis the
+/// shorter way round, at a constant rate (slerp). A single pose is a motion that stands still. The end of a motion is
+/// the next pose but for rounding, which is less than the margin of `sweep`.
+std::vector<RigidMotion> motions_between(std::span<const Pose> poses);
+
+/// The joints, each after the one that it follows. Joints that follow each other in a circle are left out, and so are
+/// those that follow these.
+std::vector<std::size_t> leaders_first(const Robot& robot);
+
+/// A joint of a circle of joints that follow each other, if there is one.
+const Joint* joint_in_mimic_loop(const Robot& robot);
 
 }  // namespace prohull::robot

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "prohull/detail/finite.h"
-#include "prohull/error.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/mesh_io.h"
 #include "robot/files/mjcf_robot.h"
 #include "robot/hulls/file_names.h"
@@ -75,7 +75,7 @@ class MujocoMeshes {
   std::string add(const MeshFile& mesh) {
     const auto triangles = std::make_shared<TriangleMesh>(finite_part(mesh_triangles(mesh)));
     if (is_flat(*triangles) || is_tiny(*triangles))
-      throw InputError(Defect::InvalidOption, mesh.path.string() + ": it is flat, or too small for MuJoCo");
+      refuse(mesh.path.string() + ": it is flat, or too small for MuJoCo");
     const std::string name = file_names_.of(mesh.path.stem().string());
     const path file = path("meshes/visual") / (name + (fits_stl(*triangles) ? ".stl" : ".obj"));
     files.push_back({file, [triangles](const path& target) { write_mesh(target, *triangles); }});

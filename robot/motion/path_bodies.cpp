@@ -8,6 +8,7 @@
 
 #include "prohull/detail/finite.h"
 #include "prohull/detail/inside_out.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/error.h"
 #include "robot/link_triangles.h"
 #include "robot/motion/joint_paths.h"
@@ -60,8 +61,7 @@ void require_distinct_names(std::span<const PathBody> bodies) {
   std::set<std::string> names;
   for (const PathBody& body : bodies)
     if (!names.insert(body.name).second)
-      throw InputError(Defect::InvalidOption,
-                       fmt::format("two bodies are called '{}'; give the mesh of the world another name", body.name));
+      refuse(fmt::format("two bodies are called '{}'; give the mesh of the world another name", body.name));
 }
 
 std::size_t body_called(std::span<const PathBody> bodies, const std::string& name) {
@@ -69,9 +69,8 @@ std::size_t body_called(std::span<const PathBody> bodies, const std::string& nam
   if (found != bodies.end()) return static_cast<std::size_t>(found - bodies.begin());
   std::vector<std::string> names;
   for (const PathBody& body : bodies) names.push_back(body.name);
-  throw InputError(Defect::InvalidOption,
-                   fmt::format("no link with geometry and no mesh of the world is called '{}'; there are {}", name,
-                               fmt::join(names, ", ")));
+  refuse(fmt::format("no link with geometry and no mesh of the world is called '{}'; there are {}", name,
+                     fmt::join(names, ", ")));
 }
 
 std::string open_note(const PathBody& body) {

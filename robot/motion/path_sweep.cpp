@@ -12,6 +12,7 @@
 
 #include "prohull/convex_cover.h"
 #include "prohull/detail/finite.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/detail/verdict_parts.h"
 #include "prohull/error.h"
 #include "robot/link_triangles.h"
@@ -20,8 +21,6 @@
 
 namespace prohull::robot {
 namespace {
-
-[[noreturn]] void refuse(const std::string& what) { throw InputError(Defect::InvalidOption, what); }
 
 /// One convex piece of a link, and what it passes.
 class PieceSweep {

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "prohull/detail/scramble.h"
-#include "robot/mimics.h"
 #include "robot/motion/joint_limits.h"
 #include "robot/motion/kinematics.h"
 
@@ -30,20 +29,9 @@ double random_shift(const Joint& joint, double unit) {
 }
 
 double random_position(const Joint& joint, double unit) {
-  switch (joint.type) {
-    case JointType::Continuous:
-      return std::numbers::pi * (2 * unit - 1);
-    case JointType::Revolute:
-      return random_turn(joint, unit);
-    case JointType::Prismatic:
-      return random_shift(joint, unit);
-    case JointType::Fixed:
-    case JointType::Ball:
-    case JointType::Planar:
-    case JointType::Floating:
-      break;
-  }
-  return 0;
+  if (joint.type == JointType::Continuous) return std::numbers::pi * (2 * unit - 1);
+  if (turns(joint)) return random_turn(joint, unit);
+  return slides(joint) ? random_shift(joint, unit) : 0;
 }
 
 /// The joint with these limits.
@@ -58,19 +46,8 @@ Joint within(Joint joint, const JointRange& allowed) {
 /// Whether random positions reach all that the joint can do, apart from what it follows.
 bool moves_as_it_can(const Joint& joint, const JointRange& allowed) {
   if (allowed.is_empty()) return false;
-  switch (joint.type) {
-    case JointType::Fixed:
-    case JointType::Revolute:
-    case JointType::Continuous:
-      return true;
-    case JointType::Prismatic:
-      return joint.mimic || is_limited_slide(within(joint, allowed));
-    case JointType::Ball:
-    case JointType::Planar:
-    case JointType::Floating:
-      break;
-  }
-  return false;
+  if (slides(joint)) return joint.mimic || is_limited_slide(within(joint, allowed));
+  return turns(joint) || joint.type == JointType::Fixed;
 }
 
 }  // namespace

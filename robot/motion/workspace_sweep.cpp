@@ -1,4 +1,4 @@
-#include "robot/motion/workspace_sweep.h"
+#include "robot/motion/path_sweep.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "prohull/error.h"
+#include "prohull/detail/refuse.h"
 #include "robot/samples/sample_parts.h"
 
 namespace prohull::robot {
@@ -44,7 +44,7 @@ SampleRobot make_sample_robot(std::string_view name) {
     }
     known += (known.empty() ? "" : ", ") + std::string(maker.info.name);
   }
-  throw InputError(Defect::InvalidOption, "no sample robot is called " + std::string(name) + "; there are: " + known);
+  refuse("no sample robot is called " + std::string(name) + "; there are: " + known);
 }
 
 }  // namespace prohull::robot

@@ -11,16 +11,15 @@
 #include "collide/collision_mesh.h"
 #include "collide/tree_pair.h"
 #include "geometry/bvh.h"
-#include "geometry/triangle_contact.h"
+#include "geometry/largest_coordinate.h"
 #include "geometry/triangle_distance.h"
-#include "geometry/usable_size.h"
+#include "geometry/triangle_intersection.h"
 #include "parallel/arena.h"
 #include "prohull/detail/collision_levels.h"
 #include "prohull/detail/progress_meter.h"
 #include "prohull/error.h"
 
 namespace prohull {
-
 namespace {
 
 /// A lower bound of the distance between two triangles: that of the boxes around them, less what it was rounded up.
@@ -32,7 +31,7 @@ double box_distance(const Triangle& s, const Triangle& t) {
 }
 
 /// A lower bound of the distance between two triangles: how far apart they are along a vector. The products have errors
-/// of 12 eps of the product of the largest entries, as in geometry/triangle_contact.cpp, with eps = 2^-53.
+/// of 12 eps of the product of the largest entries, as in geometry/triangle_intersection.cpp, with eps = 2^-53.
 double distance_along(const Vec3& way, const Triangle& s, const Triangle& t) {
   const std::array from{dot(way, s.b - s.a), dot(way, s.c - s.a)};
   const std::array to{dot(way, t.a - s.a), dot(way, t.b - s.a), dot(way, t.c - s.a)};

@@ -6,9 +6,9 @@
 #include <tuple>
 
 #include "collide/box_pair.h"
+#include "geometry/largest_coordinate.h"
 #include "geometry/orientation.h"
 #include "geometry/triangle_predicates.h"
-#include "geometry/usable_size.h"
 #include "prohull/detail/disjoint_sets.h"
 #include "prohull/error.h"
 

@@ -12,20 +12,18 @@
 #include <set>
 #include <tuple>
 
-#include "cover/cavities.h"
 #include "cover/cut_tree.h"
-#include "cover/enclosing_options.h"
-#include "cover/left_out.h"
+#include "cover/mesh_to_cover.h"
 #include "cover/piece_hull.h"
 #include "cover/primitives.h"
 #include "cover/shape_choice.h"
-#include "cover/wrap_around.h"
 #include "enclose/known_void.h"
 #include "parallel/arena.h"
 #include "prohull/closed_solid.h"
 #include "prohull/convex_hull.h"
 #include "prohull/detail/float32_hull.h"
 #include "prohull/detail/progress_meter.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/detail/stopwatch.h"
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
@@ -52,7 +50,7 @@ constexpr double kTolerances[]{1e-9, 1e-6, 1e-4};
 
 void check(const ConvexCoverOptions& options) {
   const auto require = [](bool holds, const char* what) {
-    if (!holds) throw InputError(Defect::InvalidOption, what);
+    if (!holds) refuse(what);
   };
   require(options.max_pieces >= 1, "a cover has at least 1 piece: ask for 1 or more");
   require(options.max_vertices >= 4, "a piece has at least 4 vertices: ask for 4 or more");

@@ -9,24 +9,21 @@
 #include <utility>
 
 #include "cover/ball_search.h"
-#include "cover/cavities.h"
 #include "cover/depth.h"
-#include "cover/enclosing_options.h"
 #include "cover/inside_cubes.h"
-#include "cover/left_out.h"
+#include "cover/mesh_to_cover.h"
 #include "cover/patches.h"
-#include "cover/wrap_around.h"
 #include "enclose/known_void.h"
 #include "geometry/largest_coordinate.h"
 #include "mesh/area.h"
 #include "parallel/arena.h"
 #include "prohull/closed_solid.h"
 #include "prohull/detail/progress_meter.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/detail/rounded.h"
 #include "prohull/detail/stopwatch.h"
 #include "prohull/detail/text.h"
 #include "prohull/enclosure.h"
-#include "prohull/error.h"
 #include "prohull/union_verification.h"
 
 namespace prohull {
@@ -41,10 +38,9 @@ using cover::Patches;
 using cover::Place;
 
 void check(const SphereCoverOptions& options) {
-  if (options.max_balls == 0) throw InputError(Defect::InvalidOption, "max_balls is 0; a cover has at least one ball");
+  if (options.max_balls == 0) refuse("max_balls is 0; a cover has at least one ball");
   if (!(options.max_distance > 0))
-    throw InputError(Defect::InvalidOption,
-                     fmt::format("max_distance is {}; it must be greater than 0", options.max_distance));
+    refuse(fmt::format("max_distance is {}; it must be greater than 0", options.max_distance));
 }
 
 /// What is to be covered, cut into patches, and places for balls.

@@ -18,6 +18,7 @@
 #include "parallel/arena.h"
 #include "prohull/convex_hull.h"
 #include "prohull/detail/progress_meter.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/detail/stopwatch.h"
 #include "prohull/detail/verdict_parts.h"
 #include "prohull/error.h"
@@ -66,7 +67,7 @@ void require_motion(const RigidMotion& motion) {
                      "the motion has a number that is not finite or too large: lengths are at most 1e100, and angles "
                      "at most 1e6 radians");
   if (motion.angle != 0 && !(norm(motion.axis) >= 1 / kFarthest))
-    throw InputError(Defect::InvalidOption, "the axis has no length: name a direction other than 0,0,0");
+    refuse("the axis has no length: name a direction other than 0,0,0");
 }
 
 /// A piece of the mesh in the pose in which a motion starts, and how the motion moves it.
@@ -162,10 +163,10 @@ struct Slice {
 
 void require_few(std::size_t pieces) {
   if (pieces > kMostSweptPieces)
-    throw InputError(Defect::InvalidOption,
-                     fmt::format("the sweep takes more than {} convex pieces: allow a larger distance or fewer "
-                                 "pieces, or divide the motion",
-                                 kMostSweptPieces));
+    refuse(
+        fmt::format("the sweep takes more than {} convex pieces: allow a larger distance or fewer "
+                    "pieces, or divide the motion",
+                    kMostSweptPieces));
 }
 
 std::vector<MovedPiece> moved_pieces(std::span<const RigidMotion> motions, std::span<const TriangleMesh> pieces) {
@@ -189,8 +190,8 @@ std::vector<Slice> slices_of(std::span<const MovedPiece> moved, double max_dista
 
 /// Throws InputError for what no sweep is made of.
 void check(std::span<const RigidMotion> motions, const SweepOptions& options) {
-  if (motions.empty()) throw InputError(Defect::InvalidOption, "there is no motion");
-  if (!(options.max_distance >= 0)) throw InputError(Defect::InvalidOption, "the largest distance is at least 0");
+  if (motions.empty()) refuse("there is no motion");
+  if (!(options.max_distance >= 0)) refuse("the largest distance is at least 0");
   for (const RigidMotion& motion : motions) require_motion(motion);
   require_few(motions.size());
 }

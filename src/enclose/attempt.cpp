@@ -3,7 +3,6 @@
 
 #include "enclose/making.h"
 #include "prohull/detail/stopwatch.h"
-#include "prohull/mesh_report.h"
 
 namespace prohull {
 namespace {

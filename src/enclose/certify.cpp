@@ -3,7 +3,6 @@
 #include <iterator>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "construct/turned.h"
 #include "enclose/folds.h"

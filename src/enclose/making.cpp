@@ -1,7 +1,6 @@
 #include "enclose/making.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 

@@ -1,11 +1,9 @@
 #include <optional>
 #include <utility>
 
-#include "construct/shape_guards.h"
 #include "construct/tight/few_faces.h"
 #include "construct/tight/gap_body.h"
 #include "enclose/making.h"
-#include "prohull/mesh_report.h"
 #include "prohull/tight_hull.h"
 
 namespace prohull {

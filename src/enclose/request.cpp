@@ -9,10 +9,10 @@
 
 #include "geometry/triangle_key.h"
 #include "prohull/detail/progress_meter.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/detail/stopwatch.h"
 #include "prohull/detail/text.h"
 #include "prohull/error.h"
-#include "prohull/mesh_report.h"
 #include "prohull/tolerances.h"
 
 namespace prohull {
@@ -49,10 +49,10 @@ PerFace<double> carried_tolerances(const TriangleMesh& given, const PerFace<doub
     for (auto same = first; same != wanted.end() && same->key == key; ++same) same->is_found = true;
   }
   if (const auto lost = static_cast<std::size_t>(std::ranges::count(wanted, false, &Wanted::is_found)); lost > 0)
-    throw InputError(Defect::InvalidOption,
-                     fmt::format("{} with a tolerance {} not left after the repair, which drops parts inside of other "
-                                 "parts; --keep-cavities keeps these",
-                                 counted(lost, "face"), lost == 1 ? "is" : "are"));
+    refuse(
+        fmt::format("{} with a tolerance {} not left after the repair, which drops parts inside of other "
+                    "parts; --keep-cavities keeps these",
+                    counted(lost, "face"), lost == 1 ? "is" : "are"));
   return carried;
 }
 

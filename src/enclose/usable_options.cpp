@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include "geometry/usable_size.h"
-#include "prohull/detail/finite.h"
+#include "geometry/face_tolerances.h"
+#include "geometry/largest_coordinate.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/error.h"
 #include "repair/steps.h"
 
@@ -15,7 +15,6 @@ namespace prohull {
 namespace {
 
 void require_usable_lengths(const EnclosingOptions& options) {
-  const auto refuse = [](const std::string& what) { throw InputError(Defect::InvalidOption, what); };
   constexpr double kRoom = 64;  // for the corners of hulls, in paddings
   const double most =
       (options.hull.float32_coordinates ? double(std::numeric_limits<float>::max()) : kLargestCoordinate) / kRoom;
@@ -34,13 +33,8 @@ void require_usable_lengths(const EnclosingOptions& options) {
 }
 
 void require_usable_tolerances(const TriangleMesh& triangles, const EnclosingOptions& options) {
-  const std::size_t given = options.hull.tolerances.size();
-  if (given == 0) return;
-  const auto refuse = [](const std::string& what) { throw InputError(Defect::InvalidOption, what); };
-  if (given != triangles.face_count())
-    refuse(fmt::format("{} tolerances for {} faces: there must be one for each face", given, triangles.face_count()));
-  if (!std::ranges::all_of(options.hull.tolerances, [](double tolerance) { return tolerance >= 0; }))
-    refuse("tolerances must be at least 0; 0 keeps a face, infinity allows any distance");
+  if (options.hull.tolerances.size() == 0) return;
+  require_tolerances(options.hull.tolerances, triangles.face_count());
   if (options.tight) refuse("a tight hull has no tolerances for single faces: build it without tight");
   if (options.padding > 0)
     refuse("a hull with padding has no tolerances for single faces: all its faces move outwards");
@@ -50,7 +44,6 @@ void require_usable_tolerances(const TriangleMesh& triangles, const EnclosingOpt
 
 void require_usable_mirror(const EnclosingOptions& options) {
   if (!options.hull.mirror) return;
-  const auto refuse = [](const std::string& what) { throw InputError(Defect::InvalidOption, what); };
   if (options.tight) refuse("a tight hull is not symmetric: build it without tight");
   if (options.padding > 0) refuse("a hull with padding is not symmetric: ask for one of the two");
   if (options.repair == Repair::Wrap || options.seal_holes > 0)
@@ -61,17 +54,16 @@ void require_usable_mirror(const EnclosingOptions& options) {
 
 void require_usable(const TriangleMesh& triangles, std::span<const std::size_t> target_faces,
                     const EnclosingOptions& options) {
-  if (target_faces.empty()) throw InputError(Defect::InvalidOption, "no number of faces was asked for");
-  if (options.best_of < 1) throw InputError(Defect::InvalidOption, "best_of is 0; it must be at least 1");
-  if (options.tight && options.levels)
-    throw InputError(Defect::InvalidOption, "a tight hull has no levels: ask for one of the two");
+  if (target_faces.empty()) refuse("no number of faces was asked for");
+  if (options.best_of < 1) refuse("best_of is 0; it must be at least 1");
+  if (options.tight && options.levels) refuse("a tight hull has no levels: ask for one of the two");
   require_usable_size(finite_bounding_box(triangles));
   options.bounds.require_usable();
   require_usable_lengths(options);
   require_usable_tolerances(triangles, options);
   require_usable_mirror(options);
   if (options.hull.side == HullSide::Inner && (options.repair == Repair::Wrap || options.seal_holes > 0))
-    throw InputError(Defect::InvalidOption, "nothing is known to be inside of a wrap: inner hulls do without");
+    refuse("nothing is known to be inside of a wrap: inner hulls do without");
 }
 
 }  // namespace prohull

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "mesh/half_edge_mesh.h"
-#include "prohull/error.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/mesh_report.h"
 
 namespace prohull {
@@ -177,9 +177,8 @@ std::size_t symmetric_faces(const ProgressiveHull& hull, Axis mirror, std::size_
   const std::size_t finest = hull.original_face_count() - 2 * splits_below(hull, faces);
   for (const std::size_t n : {finest, finest - 2})
     if (n >= hull.base_face_count() && inspect_symmetry(hull.level(n), mirror).is_symmetric()) return n;
-  throw InputError(Defect::InvalidOption,
-                   fmt::format("the hull was not built to be symmetric along {}: {}", name_of(axis_names(), mirror),
-                               inspect_symmetry(hull.base(), mirror).first_defect));
+  refuse(fmt::format("the hull was not built to be symmetric along {}: {}", name_of(axis_names(), mirror),
+                     inspect_symmetry(hull.base(), mirror).first_defect));
 }
 
 }  // namespace prohull

@@ -1,10 +1,10 @@
 #include "hull/void_complex.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "geometry/triangle_predicates.h"
 #include "mesh/half_edge_mesh.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/error.h"
 
 namespace prohull {
@@ -123,8 +123,7 @@ class VoidComplexBuilder {
       star.first = static_cast<std::uint32_t>(count);
       count += star.end;
       star.end = static_cast<std::uint32_t>(count);
-      if (count >= VoidComplex::kLeaves)
-        throw InputError(Defect::InvalidOption, "the hull has more than 2^31 tetrahedra of void");
+      if (count >= VoidComplex::kLeaves) refuse("the hull has more than 2^31 tetrahedra of void");
     }
     complex_.tetrahedra_.resize(count);
   }

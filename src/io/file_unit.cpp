@@ -9,7 +9,6 @@
 #include "io/file_content.h"
 #include "io/mesh_readers.h"
 #include "prohull/detail/extension.h"
-#include "prohull/error.h"
 
 namespace prohull {
 namespace {

@@ -10,9 +10,9 @@
 #include "io/mesh_readers.h"
 #include "io/ply_header.h"
 #include "prohull/detail/extension.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/detail/text.h"
 #include "prohull/error.h"
-#include "prohull/triangle_mesh.h"
 
 namespace prohull {
 namespace {
@@ -73,9 +73,8 @@ void require_available(std::size_t count, std::string_view what, double bytes_ea
   const auto available = available_memory();
   const double need = bytes_each * static_cast<double>(count);
   if (!available || need <= static_cast<double>(*available)) return;
-  throw InputError(Defect::InvalidOption,
-                   fmt::format("{} {} need about {} of memory, but {} are available; ask for fewer", grouped(count),
-                               what, in_units(static_cast<std::size_t>(need)), in_units(*available)));
+  refuse(fmt::format("{} {} need about {} of memory, but {} are available; ask for fewer", grouped(count), what,
+                     in_units(static_cast<std::size_t>(need)), in_units(*available)));
 }
 
 MemoryNeed memory_need(const std::filesystem::path& mesh_file, double work_per_face) {

@@ -19,6 +19,7 @@
 #include "io/text_scanner.h"
 #include "prohull/detail/extension.h"
 #include "prohull/detail/memory.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/error.h"
 #include "prohull/hull_file.h"
 
@@ -152,9 +153,7 @@ void scale(TriangleMesh& mesh, double factor, const std::filesystem::path& name)
     const bool was_finite = is_finite(p);
     p = factor * p;
     if (was_finite && !is_finite(p))
-      throw InputError(
-          Defect::InvalidOption,
-          fmt::format("{}: a scale of {} makes coordinates too large; choose a smaller one", name.string(), factor));
+      refuse(fmt::format("{}: a scale of {} makes coordinates too large; choose a smaller one", name.string(), factor));
   }
 }
 
@@ -220,7 +219,7 @@ bool stores_float32(MeshFormat format) { return format == MeshFormat::Stl || for
 
 TriangleMesh read_mesh(std::string_view content, const std::filesystem::path& name, const ReadOptions& options) {
   if (!(options.scale > 0 && std::isfinite(options.scale)))
-    throw InputError(Defect::InvalidOption, fmt::format("the scale is {}, but must be greater than 0", options.scale));
+    refuse(fmt::format("the scale is {}, but must be greater than 0", options.scale));
   TriangleMesh mesh = read_unscaled(content, name, options);
   if (options.scale != 1) scale(mesh, options.scale, name);
   return mesh;
@@ -252,8 +251,7 @@ std::string meshes_content(const std::filesystem::path& path, std::span<const Tr
                      fmt::format("{}: {} files hold one mesh each; write a file for each mesh, or name it .obj or .glb",
                                  path.string(), traits(format).name));
   if (names.size() != meshes.size())
-    throw InputError(Defect::InvalidOption,
-                     fmt::format("{}: {} names for {} meshes", path.string(), names.size(), meshes.size()));
+    refuse(fmt::format("{}: {} names for {} meshes", path.string(), names.size(), meshes.size()));
   for (std::size_t i = 0; i < meshes.size(); ++i)
     check_coordinates(meshes[i], format, fmt::format("{}: {}", path.string(), names[i]));
   if (format == MeshFormat::Glb) check_glb_size(meshes, names, path);

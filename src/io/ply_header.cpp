@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "io/text_scanner.h"
 #include "prohull/detail/names.h"
 

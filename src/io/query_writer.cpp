@@ -10,7 +10,7 @@
 #include "io/file.h"
 #include "io/npy_header.h"
 #include "io/query_format.h"
-#include "io/zip_writer.h"
+#include "io/zip_file.h"
 #include "prohull/detail/extension.h"
 #include "prohull/error.h"
 

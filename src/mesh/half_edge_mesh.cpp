@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "mesh/half_edges_by_tail.h"
 
 namespace prohull {

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <set>
 
+#include "prohull/detail/refuse.h"
 #include "prohull/detail/text.h"
-#include "prohull/error.h"
 
 namespace prohull {
 namespace {
@@ -37,9 +37,7 @@ class Membership {
       require_numbers(vertices->ranges, mesh.vertex_count(), "vertex");
   }
 
-  [[noreturn]] void refuse(const std::string& why) const {
-    throw InputError(Defect::InvalidOption, fmt::format("region {}: {}", region_.name, why));
-  }
+  [[noreturn]] void refuse(const std::string& why) const { refuse(fmt::format("region {}: {}", region_.name, why)); }
 
   bool has(FaceId f) const {
     return std::visit([&](const auto& wanted) { return is_of(f, wanted); }, region_.faces);
@@ -109,8 +107,7 @@ class Membership {
 
 void check(const Region& region) {
   if (!(region.max_distance >= 0))
-    throw InputError(Defect::InvalidOption, fmt::format("region {}: the distance is {:g}; it must be at least 0",
-                                                        region.name, region.max_distance));
+    refuse(fmt::format("region {}: the distance is {:g}; it must be at least 0", region.name, region.max_distance));
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/triangle_contact.h"
+#include "geometry/triangle_intersection.h"
 #include "query/exact_line.h"
 
 namespace prohull {

@@ -6,10 +6,11 @@
 #include <numeric>
 #include <utility>
 
-#include "geometry/usable_size.h"
+#include "geometry/largest_coordinate.h"
 #include "prohull/detail/disjoint_sets.h"
 #include "prohull/detail/finite.h"
 #include "prohull/detail/openings.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "prohull/repair.h"
@@ -34,8 +35,7 @@ void require_faces(const TriangleMesh& mesh) {
   if (mesh.face_count() == 0) throw InputError(Defect::EmptyMesh, "the mesh has no faces: nothing to enclose");
   constexpr std::size_t kMostFaces = 0xffffffff / 3;
   if (mesh.face_count() >= kMostFaces)
-    throw InputError(Defect::InvalidOption, fmt::format("{} faces; at most {} are supported",
-                                                        grouped(mesh.face_count()), grouped(kMostFaces)));
+    refuse(fmt::format("{} faces; at most {} are supported", grouped(mesh.face_count()), grouped(kMostFaces)));
 }
 
 void face_outwards(ClosedMesh& closed, bool turn_crossing) {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "prohull/detail/memory.h"
-#include "prohull/error.h"
+#include "prohull/detail/refuse.h"
 #include "sample/generators.h"
 
 namespace prohull {
@@ -51,12 +51,9 @@ std::span<const SampleInfo> samples() { return kInfos; }
 TriangleMesh make_sample(std::string_view name, std::size_t faces) {
   const auto sample =
       std::find_if(kSamples.begin(), kSamples.end(), [&](const Sample& s) { return s.info.name == name; });
-  if (sample == kSamples.end())
-    throw InputError(Defect::InvalidOption,
-                     fmt::format("no sample is called '{}'; there are: {}", name, known_names()));
+  if (sample == kSamples.end()) refuse(fmt::format("no sample is called '{}'; there are: {}", name, known_names()));
   if (faces < kFewestFaces || faces > kMostFaces)
-    throw InputError(Defect::InvalidOption, fmt::format("sample {}: {} faces asked for, expected {} to {}", name, faces,
-                                                        kFewestFaces, kMostFaces));
+    refuse(fmt::format("sample {}: {} faces asked for, expected {} to {}", name, faces, kFewestFaces, kMostFaces));
   require_available(faces, "faces", sample->bytes_per_face);
   return sample->make(faces);
 }

@@ -10,7 +10,7 @@
 
 #include "geometry/interior_contact.h"
 #include "geometry/orientation.h"
-#include "geometry/triangle_contact.h"
+#include "geometry/triangle_intersection.h"
 #include "geometry/triangle_predicates.h"
 #include "mesh/closed.h"
 #include "prohull/detail/disjoint_sets.h"

@@ -7,7 +7,6 @@
 
 #include "geometry/bvh.h"
 #include "geometry/triangle_distance.h"
-#include "geometry/triangle_gap.h"
 #include "prohull/detail/progress_meter.h"
 #include "verify/steps.h"
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <utility>
 
+#include "geometry/largest_coordinate.h"
 #include "geometry/triangle_key.h"
-#include "geometry/usable_size.h"
 #include "mesh/closed.h"
 #include "prohull/detail/text.h"
 #include "prohull/enclosure.h"

@@ -9,7 +9,7 @@
 
 #include "geometry/heap_with_ties.h"
 #include "geometry/predicates.h"
-#include "geometry/triangle_contact.h"
+#include "geometry/triangle_intersection.h"
 #include "geometry/triangle_key.h"
 #include "geometry/triangle_predicates.h"
 #include "prohull/enclosure.h"

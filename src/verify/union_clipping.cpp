@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "geometry/triangle_contact.h"
+#include "geometry/triangle_intersection.h"
 #include "geometry/triangle_predicates.h"
 #include "geometry/vector_of.h"
 #include "verify/cell.h"

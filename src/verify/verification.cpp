@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include "geometry/usable_size.h"
+#include "geometry/largest_coordinate.h"
 #include "mesh/closed.h"
 #include "prohull/detail/progress_meter.h"
 #include "prohull/detail/text.h"

@@ -1,4 +1,4 @@
-#include "geometry/triangle_contact.h"
+#include "geometry/triangle_intersection.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "geometry/triangle_gap.h"
+#include "geometry/triangle_distance.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include "dyadic_points.h"
 #include "effort.h"
 #include "geometry/bvh.h"
-#include "geometry/triangle_contact.h"
+#include "geometry/triangle_intersection.h"
 #include "paper/balls.h"
 #include "paper/line_sieve.h"
 #include "random.h"

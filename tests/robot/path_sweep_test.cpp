@@ -12,13 +12,12 @@
 #include <vector>
 
 #include "geometry/predicates.h"
+#include "input_error.h"
 #include "meshes.h"
 #include "prohull/detail/query_io.h"
 #include "prohull/error.h"
 #include "random.h"
 #include "robot/motion/kinematics.h"
-#include "robot/motion/poses.h"
-#include "robot/motion/workspace_sweep.h"
 #include "robot/transform.h"
 #include "robot_of_joints.h"
 
@@ -216,12 +215,7 @@ TEST(WorkspaceSweep, TakesTreesOfAnyDepth) {
 TEST(WorkspaceSweep, RefusesJointsWithoutBounds) {
   const std::size_t link = 1;
   const auto refused = [&](const Joint& joint) {
-    try {
-      sweep_workspace(robot_of(2, {joint}), {{link}}, Geometry::Visual);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return std::string(error_of([&] { sweep_workspace(robot_of(2, {joint}), {{link}}, Geometry::Visual); }).what());
   };
   EXPECT_EQ(refused(joint(JointType::Prismatic, 0, 1, {}, {0, 0, 1})), "joint 'joint0' has no limits");
   EXPECT_EQ(refused(joint(JointType::Floating, 0, 1, {}, {0, 0, 1})), "joint 'joint0' neither turns nor slides");

@@ -1,8 +1,7 @@
-#include "geometry/usable_size.h"
+#include "geometry/largest_coordinate.h"
 
 #include <fmt/format.h>
 
-#include "geometry/largest_coordinate.h"
 #include "prohull/error.h"
 
 namespace prohull {
