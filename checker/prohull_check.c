@@ -916,7 +916,7 @@ typedef struct {
   int inner, claims;
   Mesh hull, original;
   double (*ball)[4], gap, distance;
-  size_t balls;
+  size_t balls, divided; /* divided: faces of the original */
 } Case;
 
 static int is_closed(const Mesh* m) {
@@ -1334,7 +1334,8 @@ static int has_all_sides(Map* sides, uint32_t (*t)[3], uint32_t (*fan)[3], size_
 /* Divides faces of the original into other triangles, which have the same boundary and all sides of the face. */
 static void divide_faces(Case* c) {
   const Mesh* const m = &c->original;
-  for (uint64_t left = number(&c->file, m->n + 1); left > 0; --left) {
+  c->divided = (size_t)number(&c->file, m->n + 1);
+  for (size_t left = c->divided; left > 0; --left) {
     const size_t first = (size_t)number(&c->file, m->n);
     size_t n = 0;
     Map sum = {NULL, 0, 0};
@@ -1404,6 +1405,7 @@ int main(int count, char** names) {
   }
   if (c.original.infinite) printf("; triangles of the original that are not finite: %lu", COUNT(c.original.infinite));
   if (turned) printf("; components of the original that are turned: %lu%s", COUNT(turned), all ? ", which are all" : "");
+  if (c.divided) printf("; faces of the original that are divided in another way than as fans: %lu", COUNT(c.divided));
   if (c.original.scale != 1) printf("; the original is scaled by %.17g", c.original.scale);
   putchar('\n');
   return 0;

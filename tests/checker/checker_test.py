@@ -303,6 +303,19 @@ class Formats(Checked):
             got = self.check(certificate(12, len(corners) - 2, section, surfaces(1)), hull, face)
             self.assertEqual((got[0], "leave out sides" in got[1]), (NOT_PROVEN, True), (corners, got))
 
+    def test_the_answer_tells_of_faces_that_are_divided(self):
+        # Around a hole of the hull and back: the fan spans the hole, and triangles without area do not.
+        bars = [(-10, -10, 10, -4), (-10, 4, 10, 10), (-10, -10, -4, 10), (4, -10, 10, 10)]
+        hull = ([], [])
+        for a, b, c, d in bars:
+            bar, first = box((a, b, -1), (c, d, 1)), len(hull[0])
+            hull[0].extend(bar[0]), hull[1].extend(tuple(v + first for v in t) for t in bar[1])
+        face = b"OFF\n4 1 0\n-6 -6 0\n6 -6 0\n6 6 0\n-6 6 0\n8 0 1 2 3 0 3 2 1\n"
+        section = number(6) + number(1) + number(0) + b"".join(map(number, (0, 1, 0, 1, 2, 1, 2, 5, 2, 5, 0, 5, 0, 1, 0, 0, 1, 0)))
+        self.assertEqual(self.check(certificate(48, 6, surfaces(1)), hull, face)[0], NOT_PROVEN)
+        code, said = self.check(certificate(48, 6, section, surfaces(1)), hull, face)
+        self.assertEqual((code, said.strip().endswith("; faces of the original that are divided in another way than as fans: 1")), (PROVEN, True), said)
+
     def test_decimals_are_rounded_correctly(self):
         text = "OFF\n3 1 0\n8.99999999999999999999999 0 0\n0 0 0\n0 1 0\n3 0 1 2\n".encode()
         hull = box((-1, -1, -1), (9, 9, 9))
