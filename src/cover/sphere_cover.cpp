@@ -25,6 +25,7 @@
 #include "prohull/detail/text.h"
 #include "prohull/enclosure.h"
 #include "prohull/union_verification.h"
+#include "verify/known_solid.h"
 
 namespace prohull {
 namespace {
@@ -84,7 +85,7 @@ class SphereCoverer {
     TriangleMesh sheets;
     if (input_.closed) {
       solid_ = input_.closed->mesh, sheets = input_.dropped;
-      append(sheets, input_.caps);  // such as the other side of a loose triangle, whose solid has no surface
+      append(sheets, faces_beside(solid_));
       const InsideVolume as_it_is = volume_inside(input_, options_.progress);
       const InsideVolume inside = cover::filled_volume(input_, as_it_is, options_.progress);
       made_.original_volume = inside.volume, made_.is_estimated = inside.is_estimated;
@@ -98,6 +99,18 @@ class SphereCoverer {
     box_ = bounding_box(to_cover_);
     ProgressMeter meter(options_.progress, "spheres");
     depth_.emplace(solid_, slack_, std::move(sheets), meter);
+  }
+
+  /// The faces that bound no part of a solid, as both sides of a loose triangle.
+  TriangleMesh faces_beside(const TriangleMesh& solid) const {
+    TriangleMesh faces;
+    verify::KnownSolid known(solid, "solid");
+    for (const FaceId f : known.faces_beside(options_.progress)) {
+      const Triangle t = solid.triangle(f);
+      faces.triangles.push_back(
+          {faces.positions.push_back(t.a), faces.positions.push_back(t.b), faces.positions.push_back(t.c)});
+    }
+    return faces;
   }
 
   /// Of triangles that bound no solid: a wrap, which closes what is open.

@@ -153,6 +153,16 @@ TEST(SphereCover, OfTetrahedraWithAFaceInCommonReachesOutLittle) {
   }
 }
 
+// Both sides of a triangle are closed, and bound nothing.
+TEST(SphereCover, ReachesOutLittleOfASheetWithTwoSidesBesideASolid) {
+  const TriangleMesh sheet = meshes::make({{5, 0, 0}, {6, 0, 0}, {5, 1, 0}}, {{0, 1, 2}, {0, 2, 1}});
+  const TriangleMesh mesh = meshes::together(meshes::box({0, 0, 0}, {1, 1, 1}), sheet);
+  const SphereCover cover = sphere_cover(mesh, {.max_balls = 64});
+  expect_covers(cover, mesh);
+  EXPECT_LT(cover.verdict.distance().upper, 0.15);
+  EXPECT_TRUE(sphere_cover(mesh, {.max_balls = 64, .max_distance = 0.3}).within_bounds);
+}
+
 TEST(SphereCover, KeepsADistanceWithFewBalls) {
   const TriangleMesh mesh = make_sample("bracket", 500);
   const double distance = 0.08 * diagonal(mesh);
