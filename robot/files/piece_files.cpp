@@ -65,8 +65,11 @@ std::string urdf_piece(const std::string& name, const std::string& uri, const Pr
   if (const auto* const capsule = std::get_if<Capsule>(&primitive)) {
     const Vec3 axis = capsule->b - capsule->a;
     const Vec3 turn_of_z{0, std::atan2(std::hypot(axis.x, axis.y), axis.z), std::atan2(axis.y, axis.x)};
-    return collision(name, 0.5 * (capsule->a + capsule->b), turn_of_z,
-                     fmt::format("<cylinder radius=\"{}\" length=\"{}\"/>", capsule->radius, norm(axis))) +
+    const Vec3 middle = 0.5 * (capsule->a + capsule->b);
+    const double rounding = norm((capsule->a - middle) + (capsule->b - middle)) / 2;
+    return collision(name, middle, turn_of_z,
+                     fmt::format("<cylinder radius=\"{}\" length=\"{}\"/>", capsule->radius + rounding,
+                                 norm(axis) + 2 * rounding)) +
            urdf_piece(name + "_a", uri, Ball{capsule->a, capsule->radius}) +
            urdf_piece(name + "_b", uri, Ball{capsule->b, capsule->radius});
   }

@@ -90,6 +90,18 @@ TEST(PieceFiles, WriteACapsuleAsThreeShapesInUrdfAndAsOneInMjcf) {
   }
 }
 
+// There the middle of its axis is no double.
+TEST(PieceFiles, WriteACapsuleFarFromTheOriginInACylinderThatHoldsIt) {
+  const double at = 1e5, ulp = std::nextafter(at, 2 * at) - at;
+  const Capsule capsule{{at, 0, 0}, {at + ulp, 0, 3 * ulp}, ulp};
+  const Shape shape = in_urdf({capsule, ""})[0];
+  const auto& cylinder = std::get<CylinderForm>(shape.form);
+  const double off = norm(capsule.a - shape.origin.translation + (capsule.b - shape.origin.translation)) / 2;
+  ASSERT_GT(off, 0);
+  EXPECT_GE(cylinder.radius, capsule.radius + off);
+  EXPECT_GE(cylinder.length, norm(capsule.b - capsule.a) + 2 * off);
+}
+
 TEST(PieceFiles, WriteACapsuleWithoutLengthAsABall) {
   const Capsule capsule{{1, 2, 3}, {1, 2, 3 + 1e-15}, 0.25};
   for (const auto& shapes : {in_urdf({capsule, ""}), in_mjcf({capsule, ""})}) {
