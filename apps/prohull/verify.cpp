@@ -20,10 +20,12 @@
 namespace prohull::cli {
 namespace {
 
-/// Of faces nearer than the gap; where rounding hides by how much, that they are.
+/// Of faces nearer than the gap; where rounding hides by how much, that they are. No less than it is.
 std::string distance_text(double distance, double gap, int digits) {
+  constexpr int kMost = 17;
   if (distance == gap) return fmt::format("less than {:.17g}", gap);
-  return fmt::format("{:.{}g}", distance, digits_apart(distance, gap, digits));
+  while (digits < kMost && rounded_up(distance, digits) >= gap) ++digits;
+  return fmt::format("{:.{}g}", rounded_up(distance, digits), digits);
 }
 
 void print_near_faces(const Verification& found, const std::string& hull, double gap) {
@@ -95,8 +97,8 @@ void print_summary(const VerifyOptions& options, const Verification& found, cons
   if (!std::isnan(found.hull_volume))
     say("  hull: volume {:.9g}{}\n", found.hull_volume, text_of_void(found.void_ratio));
   if (gap > 0 && !std::isnan(found.least_distance))
-    say("  least distance: {}\n",
-        found.keeps_gap ? fmt::format("{:.9g}", found.least_distance) : distance_text(found.least_distance, gap, 9));
+    say("  least distance: at most {}\n", found.keeps_gap ? fmt::format("{:.9g}", rounded_up(found.least_distance, 9))
+                                                          : distance_text(found.least_distance, gap, 9));
   say("  {} intersects itself in {}\n", hull, counted(found.self_intersections, "pair of faces", "pairs of faces"));
 }
 

@@ -340,6 +340,13 @@ for gap in 0.123 0.2 0.31 0.44; do
   expect 0 "a greatest distance" $prohull build cube.obj -o away.obj --faces 12 --gap $gap --report away.json
   is "a greatest distance" awk '/at most/ { sub(/.*at most /, ""); said = $1 + 0 } /"distance_to_triangles":/ { inside = 1 } inside && /"upper":/ { proven = $2 + 0; inside = 0 } END { exit !(said >= proven) }' out away.json
 done
+for factor in 1.2469135782468 1.3333333333 1.777777777777; do
+  awk -v f=$factor '/^v / { printf "v %.17g %.17g %.17g\n", ($2 - 0.5) * f + 0.5, ($3 - 0.5) * f + 0.5, ($4 - 0.5) * f + 0.5; next } { print }' cube.obj >larger.obj
+  for gap in 0.1 0.4; do
+    $prohull verify larger.obj cube.obj --gap $gap --report larger.json >out
+    is "a least distance that is an upper bound, gap $gap" awk '/least distance: at most/ { said = $NF + 0 } /"least_distance":/ { proven = $2 + 0 } END { exit !(0 < proven && proven <= said && said < 1.00001 * proven) }' out larger.json
+  done
+done
 
 # --- bounds ---
 expect 2 "a gap beyond the largest distance" $prohull build cube.obj -o away.obj --gap 0.2 --max-distance 0.1
