@@ -37,8 +37,8 @@ struct Verdict {
   /// The solid of the original is enclosed; of an inner hull, the original encloses it.
   Answer encloses_solid = Answer::NotAsked;
   std::optional<double> gap = {};  ///< no point is nearer to a triangle of the original than that
-  /// No point is farther than `upper` from all triangles of the original, or from its solid with what closes it. Of
-  /// pieces and spheres, points in the solid of a closed original do not count.
+  /// No point of the surface is farther than `upper` from all triangles of the original, or from its solid with what
+  /// closes it. Of pieces and spheres, points in the solid of a closed original do not count.
   std::optional<DistanceBounds> distance_to_triangles = {}, distance_to_solid = {};
 
   bool original_closed = false;      ///< as it was given

@@ -52,7 +52,7 @@ class Verdict:
 
     @property
     def distance_bound(self) -> float:
-        """No point is farther than this from the solid, or from the triangles if there is none: proven.
+        """No point of the surface is farther than this from the solid, or from the triangles if there is none: proven.
 
         nan if it was not measured.
         """
