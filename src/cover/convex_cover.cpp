@@ -28,6 +28,7 @@
 #include "prohull/error.h"
 #include "prohull/mesh_report.h"
 #include "prohull/union_verification.h"
+#include "verify/original.h"
 
 namespace prohull {
 namespace cover {
@@ -180,7 +181,8 @@ class Covering {
         inside_without_cavities_(prepared_.closed || is_closed(prepared_.original)
                                      ? volume_inside(prepared_, options.progress)
                                      : InsideVolume()),
-        inside_(filled_volume(prepared_, inside_without_cavities_, options.progress)) {}
+        inside_(filled_volume(prepared_, inside_without_cavities_, options.progress)),
+        cap_faces_(prepared_.closed ? verify::stand_in(prepared_.closed->mesh, prepared_.original).caps : 0) {}
 
   ConvexCover run() {
     ConvexCover cover = certified_cover();
@@ -490,7 +492,7 @@ class Covering {
     Verdict found = verified(prepared_.original);
     if (found.certified && !found.original_closed && prepared_.closed && verified(prepared_.closed->mesh).certified)
       found.encloses_solid = Answer::Yes;
-    found.cap_faces = prepared_.closed ? prepared_.caps.face_count() : 0;
+    found.cap_faces = cap_faces_;
     found.non_finite_faces = prepared_.repairs.dropped_non_finite_faces;
     found.distance_to_triangles = cover.verdict.distance_to_triangles;
     found.distance_to_solid = cover.verdict.distance_to_solid;
@@ -533,6 +535,7 @@ class Covering {
   const RepairedMesh prepared_;
   const TriangleMesh hull_;  // the convex hull of the triangles; without faces if they lie in a plane
   const InsideVolume inside_without_cavities_, inside_;  // of the triangles, if they can be closed
+  const std::size_t cap_faces_;                          // as Verdict has them
 };
 
 }  // namespace

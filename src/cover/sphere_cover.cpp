@@ -26,6 +26,7 @@
 #include "prohull/enclosure.h"
 #include "prohull/union_verification.h"
 #include "verify/known_solid.h"
+#include "verify/original.h"
 
 namespace prohull {
 namespace {
@@ -86,6 +87,7 @@ class SphereCoverer {
     if (input_.closed) {
       solid_ = input_.closed->mesh, sheets = input_.dropped;
       append(sheets, faces_beside(solid_));
+      made_.verdict.cap_faces = verify::stand_in(solid_, input_.original).caps;
       const InsideVolume as_it_is = volume_inside(input_, options_.progress);
       const InsideVolume inside = cover::filled_volume(input_, as_it_is, options_.progress);
       made_.original_volume = inside.volume, made_.is_estimated = inside.is_estimated;
@@ -255,7 +257,7 @@ class SphereCoverer {
     }
     cover.is_of_wrap = !input_.closed, cover.fills_wrap = cover.is_of_wrap && options_.fill && cover.verdict.certified;
     cover.verdict.non_finite_faces = input_.repairs.dropped_non_finite_faces;
-    cover.verdict.cap_faces = input_.closed ? input_.caps.face_count() : 0;
+    cover.verdict.cap_faces = made_.verdict.cap_faces;
   }
 
   // Planners on GPUs read float32 numbers. Far from the origin these are too coarse.
@@ -290,7 +292,7 @@ class SphereCoverer {
 
   void measure(SphereCover& cover) const {
     DistanceBounds reach = reach_of(cover.balls), from_triangles = reach;
-    if (cover.is_of_wrap || cover.verdict.cap_faces > 0 || input_.dropped.face_count() > 0)
+    if (cover.is_of_wrap || input_.caps.face_count() > 0 || input_.dropped.face_count() > 0)
       from_triangles = union_reach(cover.balls, input_.original, {.progress = options_.progress});
     reach.upper = std::min(reach.upper, from_triangles.upper);  // the solid has the triangles
     cover.verdict.distance_to_triangles = from_triangles, cover.verdict.distance_to_solid = reach;

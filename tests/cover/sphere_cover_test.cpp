@@ -11,6 +11,7 @@
 #include "geometry/float32.h"
 #include "meshes.h"
 #include "progress.h"
+#include "prohull/convex_cover.h"
 #include "prohull/error.h"
 #include "prohull/mesh_query.h"
 #include "prohull/sample.h"
@@ -161,6 +162,18 @@ TEST(SphereCover, ReachesOutLittleOfASheetWithTwoSidesBesideASolid) {
   expect_covers(cover, mesh);
   EXPECT_LT(cover.verdict.distance().upper, 0.15);
   EXPECT_TRUE(sphere_cover(mesh, {.max_balls = 64, .max_distance = 0.3}).within_bounds);
+}
+
+// Repairs close a loose triangle by its other side, which is a face of the original.
+TEST(SphereCover, CountsNoCapThatIsAFaceOfTheOriginal) {
+  const TriangleMesh loose = meshes::make({{5, 0, 0}, {6, 0, 0}, {5, 1, 0}}, {{0, 1, 2}});
+  const TriangleMesh mesh = meshes::together(meshes::box({0, 0, 0}, {1, 1, 1}), loose);
+  EXPECT_EQ(sphere_cover(mesh, {.max_balls = 4}).verdict.cap_faces, 0U);
+  EXPECT_EQ(convex_cover(mesh, {.max_pieces = 2}).verdict.cap_faces, 0U);
+  TriangleMesh open = meshes::box({0, 0, 0}, {1, 1, 1});
+  open.triangles.pop_back();
+  EXPECT_EQ(sphere_cover(open, {.max_balls = 4}).verdict.cap_faces, 1U);
+  EXPECT_EQ(convex_cover(open, {.max_pieces = 2}).verdict.cap_faces, 1U);
 }
 
 TEST(SphereCover, KeepsADistanceWithFewBalls) {
