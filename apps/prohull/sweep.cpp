@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -74,10 +75,11 @@ Vec3 axis_of(const std::string& text) {
   return named ? kAxes[static_cast<std::size_t>(*named)] : vector_of(text, "axis");
 }
 
-std::vector<RigidMotion> motions_of(const SweepRunOptions& options) {
+std::vector<RigidMotion> motions_of(const SweepRunOptions& options, Correction& correction) {
   if (!options.poses.empty())
-    return motions_between(require_some(read_poses(read_bytes(options.poses), input_name(options.poses), corrected),
-                                        "poses", options.poses));
+    return motions_between(
+        require_some(read_poses(read_bytes(options.poses), input_name(options.poses), std::ref(correction)), "poses",
+                     options.poses));
   const double degrees = options.degrees.value_or(0);
   if (!options.degrees && options.move.empty()) refuse("how does it move? Say --angle, --move or --poses");
   RigidMotion motion{.angle = degrees * kDegree};
@@ -90,12 +92,17 @@ std::vector<RigidMotion> motions_of(const SweepRunOptions& options) {
 }
 
 LinkSweep sweep_of_mesh(const SweepRunOptions& options, SweepOptions how, SweptZone& zone) {
-  const std::vector<RigidMotion> motions = motions_of(options);
+  Correction correction;
+  const std::vector<RigidMotion> motions = motions_of(options, correction);
   InputMesh in = read_given(options.in, options.input);
   zone.read_seconds = in.seconds;
   zone.input = {{"faces", in.mesh.face_count()}, {"diagonal", finite_bounding_box(in.mesh).diagonal()}};
   in.unit.set(how.max_distance, options.max_distance, "--max-distance");
-  return naming(options.in, [&] { return LinkSweep{"", sweep(std::move(in.mesh), motions, how)}; });
+  return naming(options.in, [&] {
+    LinkSweep made{"", sweep(std::move(in.mesh), motions, how)};
+    for (std::string& note : correction.notes()) made.sweep.notes.push_back(std::move(note));
+    return made;
+  });
 }
 
 std::vector<std::size_t> links_of(const Robot& robot, const std::string& names) {

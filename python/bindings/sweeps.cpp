@@ -2,6 +2,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -45,17 +46,21 @@ Motions turn(const Numbers& axis, const Numbers& through, double angle, const Nu
   return {{.through = vector_of(through), .axis = vector_of(axis), .angle = angle, .shift = vector_of(shift)}};
 }
 
+using MotionsAndNotes = std::pair<Motions, std::vector<std::string>>;
+
 /// Of matrices, shape (n, 16).
-Motions motions_of(const Array<double>& rows) {
+MotionsAndNotes motions_of(const Array<double>& rows) {
   std::vector<Pose> poses;
-  for (py::ssize_t i = 0; i < rows.shape(0); ++i) poses.push_back(robot::corrected(pose_of(rows.data(i, 0))));
-  return robot::motions_between(poses);
+  robot::Correction correction;
+  for (py::ssize_t i = 0; i < rows.shape(0); ++i) poses.push_back(correction(pose_of(rows.data(i, 0))));
+  return {robot::motions_between(poses), correction.notes()};
 }
 
-Motions read_motions(const std::string& text, const std::string& file) {
-  const std::vector<Pose> poses = read_poses(text, file, robot::corrected);
+MotionsAndNotes read_motions(const std::string& text, const std::string& file) {
+  robot::Correction correction;
+  const std::vector<Pose> poses = read_poses(text, file, std::ref(correction));
   if (poses.empty()) throw InputError(Defect::Malformed, file + ": there are no poses");
-  return robot::motions_between(poses);
+  return {robot::motions_between(poses), correction.notes()};
 }
 
 py::dict sweep_mesh(const TriangleMesh& mesh, const Motions& motions, const py::object& progress,

@@ -75,7 +75,7 @@ def sweep(mesh: MeshLike, *, axis: Union[Axis, Sequence[float]] = "z", through: 
     move: the mesh moves straight by this vector; together with `angle` as a screw does.
     poses: or from pose to pose: matrices of shape (n, 4, 4), a rotation and a translation each; or the name of a file,
         as --poses of `prohull sweep` reads it. Matrices may differ from rigid ones by 1e-6: what is
-        proven is about the rigid ones. The origin of the mesh goes straight from one to the next, and the mesh
+        proven is about the rigid ones, and `notes` tell of it. The origin of the mesh goes straight from one to the next, and the mesh
         turns about one axis the shorter way round. Not together with axis, through, angle and move.
     pieces: the largest number of convex pieces that cover the mesh before it moves, at least 1.
     max_distance: how far the slices of the motion may add to the distance of these pieces from the mesh, in the mesh's
@@ -93,12 +93,13 @@ def sweep(mesh: MeshLike, *, axis: Union[Axis, Sequence[float]] = "z", through: 
     has_turn = angle != 0 or not (isinstance(axis, str) and axis == "z" and _is_zero(through) and _is_zero(move))
     if poses is not None and has_turn:
         raise InputError("a mesh moves by poses, or by axis, through, angle and move: leave one of the two out")
-    motions = _turn(axis, through, angle, move) if poses is None else _motions(poses)
+    motions, notes = (_turn(axis, through, angle, move), []) if poses is None else _motions(poses)
     given = mesh_of(mesh, keep_non_finite=True)
     keywords = sweep_keywords(pieces, max_distance, lambda name, distance: distance_of(name, distance, given),
                               float32_coordinates, threads)
     with naming(mesh):
-        return sweep_of(_prohull.sweep(given._core, motions, progress, keywords))
+        facts = _prohull.sweep(given._core, motions, progress, keywords)
+    return sweep_of({**facts, "notes": facts["notes"] + notes})
 
 
 def sweep_keywords(pieces: int, max_distance: Optional[Gap], read: Callable[[str, Any], float], float32_coordinates: bool,
@@ -139,7 +140,8 @@ def _vector(name: str, value: Any) -> list[float]:
     return [float(x) for x in vector]
 
 
-def _motions(poses: Any) -> list[_prohull.RigidMotion]:
+def _motions(poses: Any) -> tuple[list[_prohull.RigidMotion], list[str]]:
+    """And notes about the poses."""
     if isinstance(poses, (str, os.PathLike)):
         return _prohull.read_motions(bytes_of(poses), os.fspath(poses))
     rows = matrices("poses", poses).reshape(-1, 16)

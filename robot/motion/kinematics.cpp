@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "prohull/detail/rounded.h"
+#include "prohull/detail/text.h"
 #include "robot/motion/joint_limits.h"
 #include "robot/transform.h"
 
@@ -92,6 +94,27 @@ Pose corrected(const Pose& pose) {
   require_rigid(pose);
   const auto [w, x, y, z] = quaternion_of(pose);
   return pose_of_quaternion(w, x, y, z, pose.translation);
+}
+
+Pose Correction::operator()(const Pose& pose) {
+  constexpr double kRounding = 1e-14;
+  const Pose made = corrected(pose);
+  double change = 0;
+  for (std::size_t row = 0; row < 3; ++row)
+    for (int axis = 0; axis < 3; ++axis)
+      change = std::max(change, std::abs(made.rotation[row][axis] - pose.rotation[row][axis]));
+  changed_ += change > kRounding ? 1 : 0;
+  most_ = std::max(most_, change);
+  return made;
+}
+
+std::vector<std::string> Correction::notes() const {
+  if (changed_ == 0) return {};
+  return {
+      fmt::format("{} of the poses {} rotation{}, but nearly: what is proven is about rotations whose numbers "
+                  "differ from {} by up to {:.2g}",
+                  counted(changed_, "matrix", "matrices"), changed_ == 1 ? "is no" : "are no", changed_ == 1 ? "" : "s",
+                  changed_ == 1 ? "its" : "theirs", rounded_up(most_, 2))};
 }
 
 std::vector<RigidMotion> motions_between(std::span<const Pose> poses) {

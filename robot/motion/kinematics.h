@@ -39,6 +39,18 @@ bool continues_row(const Robot& robot, std::size_t joint);
 /// The pose with a rotation that is one but for rounding. Throws InputError as require_rigid.
 Pose corrected(const Pose& pose);
 
+/// Makes rotations of matrices that are almost rigid, and tells if that was more than rounding.
+class Correction {
+ public:
+  /// As `corrected`.
+  Pose operator()(const Pose& pose);
+  std::vector<std::string> notes() const;
+
+ private:
+  std::size_t changed_ = 0;
+  double most_ = 0;  ///< that an entry of a matrix was changed by
+};
+
 /// From each pose to the next: the origin of the body's frame goes straight, and the body turns about one axis the
 /// shorter way round, at a constant rate (slerp). A single pose is a motion that stands still. The end of a motion is
 /// the next pose but for rounding, which is less than the margin of `sweep`.

@@ -110,9 +110,9 @@ std::size_t numbers_per_row(std::string_view content, const std::filesystem::pat
   return 0;
 }
 
-/// `of_matrix`, if it is not null, makes another pose of what a matrix is.
+/// `of_matrix`, if there is one, makes another pose of what a matrix is.
 RowSink poses_into(std::vector<Pose>& poses, const PoseRow& form, const std::string& name,
-                   Pose (*of_matrix)(const Pose&) = nullptr) {
+                   const std::function<Pose(const Pose&)>& of_matrix = {}) {
   return [&poses, &form, &name, of_matrix](std::span<const double> row, Place place) {
     try {
       const bool is_affine = row.size() != 16 || (row[12] == 0 && row[13] == 0 && row[14] == 0 && row[15] == 1);
@@ -151,7 +151,7 @@ void check_order(std::string_view content, const std::filesystem::path& name) {
 }
 
 std::vector<Pose> read_uncompressed_poses(std::string_view content, const std::filesystem::path& name,
-                                          Pose (*of_matrix)(const Pose&)) {
+                                          const std::function<Pose(const Pose&)>& of_matrix) {
   const std::string file = name.string();
   const PoseRow& form = pose_row(numbers_per_row(content, name), file);
   if (form.per_point == 7 && query_format_of(content, name) == QueryFormat::Csv) check_order(content, name);
@@ -216,7 +216,7 @@ std::vector<Vec3> read_points(std::string_view content, const std::filesystem::p
 }
 
 std::vector<Pose> read_poses(std::string_view content, const std::filesystem::path& name,
-                             Pose (*of_matrix)(const Pose&)) {
+                             const std::function<Pose(const Pose&)>& of_matrix) {
   return is_gzip(content) ? read_uncompressed_poses(gunzip(content, name), name, of_matrix)
                           : read_uncompressed_poses(content, name, of_matrix);
 }

@@ -52,7 +52,12 @@ says out "a straight move" "1 convex piece, volume about 0.24,"
 expect 0 "a screw" $sweep --angle 720 --move 0,0,1 -o screw.stl
 printf 'x,y,z,qw,qx,qy,qz\n0,0,0,1,0,0,0\n0,0,0,1,0,0,1\n' >poses.csv
 expect 0 "poses" $sweep --poses poses.csv -o poses.stl
+says_not out "poses that are rotations" "rotation"
 expect 0 "poses cover the end" $prohull verify poses.stl end.off
+printf '1.0000004,0,0,0,0,1.0000004,0,0,0,0,1.0000004,0\n1.0000004,0,0,1,0,1.0000004,0,0,0,0,1.0000004,0\n' >nearly.csv
+expect 0 "poses that are nearly rotations" $sweep --poses nearly.csv -o poses.stl --report nearly.json
+says out "poses that are nearly rotations" "2 matrices of the poses are no rotations, but nearly"
+says nearly.json "poses that are nearly rotations" "differ from theirs by up to 4.1e-07"
 printf 'bar.off 1\n' >bad.csv
 expect 3 "no poses" $sweep --poses bad.csv -o no.stl
 says err "no poses" "bad.csv: a pose has 7 numbers, x,y,z,qw,qx,qy,qz; or 12, the upper three rows of a matrix of 4 x 4; or all 16; this one has 2"

@@ -240,6 +240,17 @@ TEST(Poses, AreReadAsQuaternionsOrMatrices) {
     EXPECT_THROW(poses_in(text), InputError) << text;
 }
 
+TEST(Poses, AreToldWhereTheirMatricesAreNoRotations) {
+  Correction correction;
+  const double c = std::cos(1), s = std::sin(1);
+  correction({{Vec3{c, -s, 0}, {s, c, 0}, {0, 0, 1}}, {}});
+  EXPECT_TRUE(correction.notes().empty());
+  correction({{Vec3{1 + 4e-7, 0, 0}, {0, 1 + 4e-7, 0}, {0, 0, 1 + 4e-7}}, {}});
+  ASSERT_EQ(correction.notes().size(), 1U);
+  EXPECT_EQ(correction.notes()[0].find("1 matrix of the poses is no rotation, but nearly"), 0U);
+  EXPECT_NE(correction.notes()[0].find("by up to 4.1e-07"), std::string::npos);
+}
+
 TEST(Poses, TurnByLessThanDoublesCanSquare) {
   const std::vector<Pose> poses = read_poses("0 0 0 1 0 0 0\n1 0 0 1 0 0 1e-150\n", "p.csv", corrected);
   EXPECT_EQ(sweep(meshes::box({0, 0, 0}, {1, 1, 1}), motions_between(poses)).pieces.size(), 1U);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -40,7 +41,7 @@ std::vector<Triangle> read_triangles(std::string_view content, const std::filesy
 /// Malformed if a pose is not rigid (collide.h), and for names of columns that put the real part last. `of_matrix`
 /// makes another pose of what a matrix is.
 std::vector<Pose> read_poses(std::string_view content, const std::filesystem::path& name,
-                             Pose (*of_matrix)(const Pose&) = nullptr);
+                             const std::function<Pose(const Pose&)>& of_matrix = {});
 
 /// The same of one pose, the argument of an option, which messages name.
 Pose read_pose(std::string_view text, const std::string& option);
