@@ -131,11 +131,11 @@ val read_levels(const val& bytes, const std::string& name) {
 /// The bytes of a .phull file.
 val write_levels(const val& levels) { return object_of_file(hull_content(levels_of(levels))); }
 
-val object_of(const Verification& found) {
+val object_of(const Verification& found, double gap) {
   val object = val::object();
   object.set("holds", found.certified);
   object.set("encloses", found.encloses);
-  object.set("keepsGap", found.keeps_gap);
+  object.set("keepsGap", gap > 0 && !found.is_gap_undecided() ? val(found.keeps_gap) : val::null());
   object.set("proof", std::string(found.proof));
   object.set("originalClosed", found.original_closed);
   object.set("whyNot", found.why_not);
@@ -169,7 +169,7 @@ val verify(const val& hull, const val& original, const val& given, const val& pr
     named.not_negative("gap", read.gap);
     return read;
   });
-  return object_of(verify_hull(mesh_of(hull, "hull"), mesh_of(original, "original"), side, options));
+  return object_of(verify_hull(mesh_of(hull, "hull"), mesh_of(original, "original"), side, options), options.gap);
 }
 
 val distance(const val& from, const val& to, const val& given, const val& progress) {

@@ -99,10 +99,11 @@ export interface Hull extends Mesh, Distances {
 }
 
 export interface Verification {
-  /** The verdict: `encloses` and `keepsGap`. */
+  /** The verdict: `encloses`, and `keepsGap` if a gap was asked for. */
   holds: boolean;
   encloses: boolean;
-  keepsGap: boolean;
+  /** Exact; null if no gap was asked for, or it was not decided. */
+  keepsGap: boolean | null;
   proof: 'replay' | 'enclosure' | 'coverage';
   originalClosed: boolean;
   whyNot: string;

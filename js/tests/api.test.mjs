@@ -41,6 +41,9 @@ test('a hull is certified, and verify says the same', async () => {
   assert.ok((await prohull.verify(hull, part)).holds);
   const inside = await prohull.verify(part, hull);
   assert.ok(!inside.holds && inside.worst[0].distance > 0 && inside.whyNot.length > 0);
+  const gaps = await Promise.all([0, 1e-9, 1].map((gap) => prohull.verify(hull, part, {gap})));
+  assert.deepEqual([gaps[0].keepsGap, gaps[2].keepsGap], [null, false]);
+  assert.equal(gaps[1].keepsGap, gaps[1].facesTooNear === 0);
   const {lower, upper} = await prohull.distance(hull, part);
   const broken = {vertices: [...part.vertices, NaN, 0, 0], faces: [...part.faces, 0, 1, part.vertices.length / 3]};
   await refused(prohull.distance(hull, broken), /not finite/);
