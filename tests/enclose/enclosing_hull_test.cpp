@@ -853,9 +853,9 @@ TEST(EnclosingHull, KeepsABoundWithAsFewFacesAsTheHullWithoutIt) {
   EXPECT_TRUE(hull.notes.empty() || hull.notes.back().find("convex hull") == std::string::npos);
 }
 
-// What kept the bounds by itself had 248 faces around the bracket, and 1,146 inside of the pony.
+// What kept the bounds by itself had 744 faces around the bracket, and 1,146 inside of the pony.
 TEST(EnclosingHull, HasNotManyFacesWhereItKeepsABoundByFar) {
-  const TriangleMesh bracket = make_sample("bracket", 1000), pony = make_sample("pony", 1000);
+  const TriangleMesh bracket = make_sample("bracket", 3000), pony = make_sample("pony", 1000);
   const auto faces_within = [](const TriangleMesh& mesh, HullSide side, double share, double gap) {
     const double diagonal = bounding_box(mesh).diagonal();
     const EnclosingHull hull = enclosing_hull(
