@@ -37,7 +37,9 @@ class Membership {
       require_numbers(vertices->ranges, mesh.vertex_count(), "vertex");
   }
 
-  [[noreturn]] void refuse(const std::string& why) const { refuse(fmt::format("region {}: {}", region_.name, why)); }
+  [[noreturn]] void refuse(const std::string& why) const {
+    prohull::refuse(fmt::format("region {}: {}", region_.name, why));
+  }
 
   bool has(FaceId f) const {
     return std::visit([&](const auto& wanted) { return is_of(f, wanted); }, region_.faces);
