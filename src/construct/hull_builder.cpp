@@ -8,6 +8,7 @@
 
 #include "construct/checked_options.h"
 #include "construct/closed_manifold.h"
+#include "construct/growth.h"
 #include "construct/progressive/rounds.h"
 #include "construct/turned.h"
 #include "geometry/face_tolerances.h"
@@ -86,7 +87,9 @@ ShapeGuards weaker(const ShapeGuards& a, const ShapeGuards& b) {
           .max_overhang = std::max(a.max_overhang, b.max_overhang)};
 }
 
-HullResult build_hull(const TriangleMesh& mesh, const HullOptions& options) {
+HullResult build_hull(const TriangleMesh& mesh, const HullOptions& options) { return build_hull(mesh, options, {}); }
+
+HullResult build_hull(const TriangleMesh& mesh, const HullOptions& options, const MayReach& may_reach) {
   check(options);
   check_tolerances(mesh, options);
   if (mesh.face_count() == 0) throw InputError(Defect::EmptyMesh, "the mesh has no faces");
@@ -96,8 +99,8 @@ HullResult build_hull(const TriangleMesh& mesh, const HullOptions& options) {
     throw InputError(Defect::NoVolume, "the mesh is inside out or encloses nothing; closed_mesh turns what it can");
   }
   return arena_of(options.threads).execute([&] {
-    if (options.side == HullSide::Inner) return turned(simplify_in_rounds(turned(mesh), options));
-    return simplify_in_rounds(mesh, options);
+    if (options.side == HullSide::Inner) return turned(simplify_in_rounds(turned(mesh), options, nullptr, may_reach));
+    return simplify_in_rounds(mesh, options, nullptr, may_reach);
   });
 }
 

@@ -15,6 +15,8 @@ std::optional<EnclosingHull> built(const Making& making) {
       return built_within(making);
     case Method::InSteps:
       return built_in_steps(making);
+    case Method::Early:
+      return built_early(making);
     case Method::Tight:
       return built_tight(making);
     case Method::Searched:
@@ -31,7 +33,8 @@ std::optional<EnclosingHull> built(const Making& making) {
 std::optional<Recipe> other_way(Recipe recipe, const Request& request) {
   if (recipe.method == Method::TightOfGapBody)
     recipe.method = Method::Tight;
-  else if (recipe.moves && recipe.approach == Approach::Touching && request.is_outer())
+  else if (recipe.moves && recipe.method != Method::Early && recipe.approach == Approach::Touching &&
+           request.is_outer())
     recipe.approach = Approach::Clear;
   else
     return std::nullopt;

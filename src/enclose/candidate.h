@@ -12,6 +12,7 @@ enum class Method {
   Levels,          ///< a level of the progressive hull
   Within,          ///< a progressive hull without collapses that could break the bound of the distance
   InSteps,         ///< a progressive hull whose vertices move towards the triangles before it has come down, too
+  Early,           ///< the same, moving earlier and more often, where that stays near the triangles
   Tight,           ///< a tight hull (tight_hull.h)
   TightOfGapBody,  ///< a tight hull of a body that keeps the gap (gap_body.h)
   Searched,        ///< a hull of few faces, searched on from (few_faces.h)
@@ -39,7 +40,8 @@ struct Candidate {
   HullBounds bounds = {};  ///< that the hull is built to keep
   std::uint64_t seed = 0;
   std::size_t least_faces = 0;  ///< Method::Levels: of the level
-  double within = 0;  ///< Method::Within: the distance that collapses keep; Further: those of `start` kept; 0 if none
+  double within = 0;  ///< Method::Within: the distance that collapses keep; Further: those of `start` kept; 0 if none;
+                      ///< Early: how far the hull may reach, about
   std::size_t most_faces = std::numeric_limits<std::size_t>::max();  ///< with more, it is not better than another hull
   std::optional<EnclosingHull> start = {};  ///< Method::Searched and Further: what they begin with
 };

@@ -26,6 +26,7 @@ Candidates::Candidates(const Request& request, std::size_t target_faces, const H
       plan_bounded_wraps();
     else
       plan_other_wraps(), plan_clear_of_wraps();
+    if (!bounds_.any() && request.options.tight) plan_early();
   }
   if (!request.is_outer() && request.options.repair != Repair::None) {
     if (!request.is_bound_to_mesh() && !request.options.levels) plan_inner();

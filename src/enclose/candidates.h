@@ -40,6 +40,7 @@ class Candidates {
   void plan_polytope();
   void plan_wraps();
   void plan_other_wraps();
+  void plan_early();
   void plan_clear_of_wraps();
   void plan_sheets(bool is_instead_of_wraps);
   void plan_offset();

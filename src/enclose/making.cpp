@@ -80,11 +80,11 @@ TriangleMesh placed(const TriangleMesh& level, const Making& making) {
   return placed(level, making, static_cast<unsigned>(std::clamp(rounds, 1.0, double(kRoundsAtTheEnd))));
 }
 
-TriangleMesh placed(const TriangleMesh& level, const Making& making, unsigned max_rounds) {
+TriangleMesh placed(const TriangleMesh& level, const Making& making, unsigned max_rounds, const MayReach& may_reach) {
   const MoveOptions how = making.request.move_options(max_rounds);
   return making.recipe().approach == Approach::Touching
-             ? moved_towards_closed(level, making.request.input.closed->mesh, how.side, how)
-             : moved_towards(level, making.to_cover(), how);
+             ? moved_towards_closed(level, making.request.input.closed->mesh, how.side, how, may_reach)
+             : moved_towards(level, making.to_cover(), how, may_reach);
 }
 
 }  // namespace prohull

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "construct/growth.h"
 #include "enclose/candidate.h"
 #include "prohull/detail/float32_hull.h"
 
@@ -46,11 +47,14 @@ inline bool is_small(std::size_t faces) { return faces <= 16'000; }
 
 /// Moved towards the triangles; in few rounds, where they are few beside its faces.
 TriangleMesh placed(const TriangleMesh& level, const Making& making);
-TriangleMesh placed(const TriangleMesh& level, const Making& making, unsigned max_rounds);
+TriangleMesh placed(const TriangleMesh& level, const Making& making, unsigned max_rounds,
+                    const MayReach& may_reach = {});
 
 // One for each method.
 EnclosingHull built_of_levels(const Making& making);
 EnclosingHull built_in_steps(const Making& making);
+/// None if it has more faces than asked for, or reaches out farther than it may.
+std::optional<EnclosingHull> built_early(const Making& making);
 EnclosingHull built_within(const Making& making);
 EnclosingHull built_further(const Making& making);
 EnclosingHull built_tight(const Making& making);

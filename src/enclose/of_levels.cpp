@@ -1,11 +1,15 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
+#include "construct/growth.h"
 #include "construct/shape_guards.h"
 #include "enclose/level_search.h"
 #include "enclose/making.h"
+#include "prohull/distance.h"
+#include "verify/nearest_face.h"
 
 namespace prohull {
 namespace {
@@ -60,6 +64,39 @@ LevelTrial moved_level(const ProgressiveHull& hull, const Making& making) {
   return {faces, hull.level(faces), 1};
 }
 
+std::size_t faces_of(double of_those_asked_for, const Making& making) {
+  return std::size_t(std::llround(of_those_asked_for * double(making.candidate.target_faces)));
+}
+
+struct Step {
+  double faces;  ///< of those asked for
+  unsigned rounds;
+  double stuck;  ///< with more, in Candidate::most_faces
+};
+
+// One that is stuck with too many faces to be better than another hull does not move any more.
+EnclosingHull in_steps(TriangleMesh start, std::span<const Step> steps, const MayReach& may_reach,
+                       const Making& making) {
+  EnclosingHull hull;
+  hull.mesh = std::move(start);
+  for (const auto& [faces, rounds, stuck] : steps) {
+    if (!(signed_volume(hull.mesh) > 0)) break;  // an inner hull may vanish
+    HullOptions options = making.hull_options();
+    options.target_faces = faces_of(faces, making);
+    options.guards.max_overhang = overhang_left(bounding_box(hull.mesh), bounding_box(making.request.input.original),
+                                                making.options().hull.guards.max_overhang);
+    HullResult result = build_hull(hull.mesh, options, may_reach);
+    hull.mesh = result.hull.base();
+    const bool is_stuck = double(hull.mesh.face_count()) > stuck * double(making.candidate.most_faces);
+    if (!is_stuck) hull.mesh = placed(hull.mesh, making, rounds, may_reach);
+    hull.target_reached = result.stopped == Stopped::TargetReached;
+    hull.refusals += result.refusals, hull.blocked = result.blocked;
+    hull.relaxed_guards = std::max(hull.relaxed_guards, result.relaxed_guards);
+    if (is_stuck) break;
+  }
+  return hull;
+}
+
 }  // namespace
 
 EnclosingHull built_of_levels(const Making& making) {
@@ -80,36 +117,36 @@ EnclosingHull built_of_levels(const Making& making) {
   return hull;
 }
 
-// Moved before it has come down to its faces, too, a hull is up to 1 % smaller. One that is stuck with too many faces
-// to be better than another hull does not move any more. The mesh has its levels already: one of them comes first.
+// Moved before it has come down to its faces, too, a hull is up to 1 % smaller. The mesh has its levels already: one of
+// them comes first.
 EnclosingHull built_in_steps(const Making& making) {
-  struct Step {
-    double faces;  ///< of those asked for
-    unsigned rounds;
-    double stuck;  ///< with more, in Candidate::most_faces
-  };
   constexpr Step kSteps[]{{1.5, 2, 4}, {1, kRoundsAtTheEnd, 1}};
-  const double target = double(making.candidate.target_faces);
-  EnclosingHull hull;
-  hull.mesh = making.solid().source == Source::Mesh
-                  ? making.solids.levels(making.candidate.solid, making.candidate.seed)
-                        .hull.level(std::size_t(std::llround(kSteps[0].faces * target)))
-                  : making.solid().mesh;
-  for (const auto& [faces, rounds, stuck] : kSteps) {
-    if (!(signed_volume(hull.mesh) > 0)) break;  // an inner hull may vanish
-    HullOptions options = making.hull_options();
-    options.target_faces = std::size_t(std::llround(faces * target));
-    options.guards.max_overhang = overhang_left(bounding_box(hull.mesh), bounding_box(making.request.input.original),
-                                                making.options().hull.guards.max_overhang);
-    HullResult result = build_hull(hull.mesh, options);
-    hull.mesh = result.hull.base();
-    const bool is_stuck = double(hull.mesh.face_count()) > stuck * double(making.candidate.most_faces);
-    if (!is_stuck) hull.mesh = placed(hull.mesh, making, rounds);
-    hull.target_reached = result.stopped == Stopped::TargetReached;
-    hull.refusals += result.refusals, hull.blocked = result.blocked;
-    hull.relaxed_guards = std::max(hull.relaxed_guards, result.relaxed_guards);
-    if (is_stuck) break;
-  }
+  return in_steps(making.solid().source == Source::Mesh
+                      ? making.solids.levels(making.candidate.solid, making.candidate.seed)
+                            .hull.level(faces_of(kSteps[0].faces, making))
+                      : making.solid().mesh,
+                  kSteps, {}, making);
+}
+
+// A collapse places its vertex outside of faces that stand off already: what moves on the way keeps what follows near.
+// Of 122 tight hulls of robots' wraps with 60 to 300 faces, the void is 0.90 times that before in the median, the time
+// 1.17 times; without --tight, 0.87 and 1.33, up to 5 times. Each move makes the hull smaller, but not nearer: without
+// a limit, a knuckle of 500 faces reached out by 18.8 mm for 2.1 after the moves at twice the faces.
+std::optional<EnclosingHull> built_early(const Making& making) {
+  constexpr Step kSteps[]{{4, 4, 10}, {2, 4, 5}, {1.4, 4, 4}, {1, kRoundsAtTheEnd, 1}};
+  constexpr std::size_t kMostCells = 20'000;
+  constexpr double kAsNear = 1.1;  // between the points that are asked about, faces may reach farther
+  const double within = making.candidate.within;
+  const TriangleMesh& original = making.request.input.original;  // doors of the solid are no part of it
+  const verify::NearestFace triangles(original);
+  const auto is_near = [&](const Vec3& p) {
+    std::size_t looked_at = 0;
+    return triangles.nearest(p, {0, within}, looked_at).distance < within;
+  };
+  EnclosingHull hull = in_steps(making.solid().mesh, kSteps, is_near, making);
+  if (hull.mesh.face_count() > making.candidate.target_faces ||
+      distance_bounds(hull.mesh, original, {.max_cells = kMostCells}).upper > kAsNear * within)
+    return std::nullopt;
   return hull;
 }
 

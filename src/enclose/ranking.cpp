@@ -60,8 +60,8 @@ void Ranking::take(std::optional<Attempt> attempt) {
   if (!attempt->why_not_storable.empty())
     notes_.add(fmt::format("a hull of {} has no float32 coordinates: {}",
                            described(solids_[hull.solid], request_.input.repairs), attempt->why_not_storable));
-  else if (!is_as_asked(hull) && request_.is_free() && !is_in_spite_of_bounds(*attempt) &&
-           (hull.certified || !other_way(attempt->candidate.recipe, request_)))
+  else if (!is_as_asked(hull) && request_.is_free() && attempt->candidate.recipe.method != Method::Early &&
+           !is_in_spite_of_bounds(*attempt) && (hull.certified || !other_way(attempt->candidate.recipe, request_)))
     note_why_not(hull);
   const bool is_kept = hull.certified && hull.within_bounds;
   if (!best_ || is_better(hull, best_->hull))

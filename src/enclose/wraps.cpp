@@ -5,6 +5,7 @@
 #include <string>
 
 #include "enclose/candidates.h"
+#include "prohull/distance.h"
 
 namespace prohull {
 namespace {
@@ -127,6 +128,20 @@ void Candidates::plan_clear_of_wraps() {
       candidate.recipe.approach = Approach::Clear;
       return candidate;
     });
+}
+
+// The best hull of a wrap, once more. Which wrap is best is known by then, and how far a hull need not reach.
+void Candidates::plan_early() {
+  steps_.push_back([this](const Ranking& ranking, Solids&) -> std::optional<Candidate> {
+    if (request_.is_padded() || !has_few_faces(ranking)) return std::nullopt;
+    constexpr std::size_t kMostCells = 20'000;
+    const Attempt& best = ranking.best();
+    if (best.hull.source != Source::Wrap || best.candidate.recipe.method != Method::InSteps) return std::nullopt;
+    Candidate candidate = best.candidate;
+    candidate.recipe.method = Method::Early;
+    candidate.within = distance_bounds(best.hull.mesh, request_.input.original, {.max_cells = kMostCells}).upper;
+    return candidate;
+  });
 }
 
 /// Of what is not closed, the first wrap tells the volume, with which bounds of the void compare the first hulls.

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <numbers>
 
+#include "construct/growth.h"
 #include "effort.h"
 #include "enclose/estimated_volume.h"
 #include "few_trials.h"
@@ -372,6 +374,26 @@ TEST(EnclosingHull, OfARoomOfPanelsIsSolidAndCoversItsDoors) {
   EXPECT_GT(signed_volume(hull.mesh), 8);
   const TriangleMesh& doors = made.solids[hull.solid].doors;
   EXPECT_TRUE(doors.face_count() == 0 || verify_cover(doors, hull.mesh).encloses);
+}
+
+TEST(EnclosingHull, OfAWrapMovesOnItsWayDownIfTight) {
+  const TriangleMesh bracket = make_sample("bracket", 1000);
+  const EnclosingHull hull = only(hull_of(bracket, 100, {.tight = true, .repair = Repair::Wrap}));
+  EXPECT_TRUE(hull.certified);
+  EXPECT_LT(hull.void_ratio, 0.13) << "0.15 if it moves near the end only";
+}
+
+TEST(EnclosingHull, ThatMayReachNoFartherOnlyShrinks) {
+  const TriangleMesh knot = make_sample("knot", 600);
+  const TriangleMesh hull =
+      build_hull(wrap(knot, {.spacing = 0.02 * bounding_box(knot).diagonal()}).mesh, {.target_faces = 300}).hull.base();
+  const TriangleMesh shrunk = moved_towards(hull, knot, {}, [](const Vec3&) { return false; });
+  EXPECT_LT(signed_volume(shrunk), signed_volume(hull));
+  EXPECT_TRUE(verify_enclosure(shrunk, hull).encloses);
+  EXPECT_FALSE(verify_enclosure(moved_towards(hull, knot), hull).encloses) << "it slides outwards somewhere";
+  const auto at_left = [&](const Vec3& p) { return p.x < 0; };
+  for (const Vec3& p : build_hull(hull, {.target_faces = 100}, at_left).hull.base().positions)
+    EXPECT_TRUE(p.x < 0 || std::ranges::find(hull.positions, p) != hull.positions.end());
 }
 
 TEST(EnclosingHull, OfAWrapMovesTowardsTheTriangles) {

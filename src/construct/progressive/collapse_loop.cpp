@@ -205,6 +205,7 @@ class CollapseLoop {
     if (hangs_over(apex)) return Refusal::Overhang;
     if (const auto why = refusal_of_shape(placement.local)) return why;
     if (!is_finite(apex) || !is_outside(mesh_, star_, apex)) return Refusal::Certificate;
+    if (rules_.may_reach && !rules_.may_reach(apex)) return Refusal::Overhang;
     if (would_exceed_tolerance(star_.to_local(apex))) return Refusal::Tolerance;
     if (would_add_intersections(apex)) return Refusal::SelfIntersection;
     return std::nullopt;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "construct/growth.h"
 #include "construct/guard/tolerance_guard.h"
 #include "geometry/mirror_plane.h"
 #include "geometry/unit_cube.h"
@@ -61,6 +62,7 @@ struct CollapseRules {
   double rounding;  ///< the most by which storing moves a coordinate, with some room
   std::function<void(std::size_t removed_faces)> tell;  ///< called now and then, from any thread; may throw Cancelled
   std::optional<MirrorPlane> mirror = {};               ///< keep the mesh its own image; a patch is all of it then
+  MayReach may_reach = {};
 };
 
 /// Estimates the priorities that are not yet known.

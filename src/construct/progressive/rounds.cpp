@@ -17,7 +17,7 @@ namespace {
 
 class Rounds {
  public:
-  Rounds(const TriangleMesh& mesh, const HullOptions& options, const Box* part)
+  Rounds(const TriangleMesh& mesh, const HullOptions& options, const Box* part, const MayReach& may_reach)
       : options_(options),
         bounds_(bounding_box(mesh)),
         unit_cube_(bounds_),
@@ -29,7 +29,8 @@ class Rounds {
                bounds_,
                storage_rounding(bounds_, options.float32_coordinates),
                [this](std::size_t removed_faces) { meter_.at(removed_ += removed_faces, excess_); },
-               whole_.mirror()} {}
+               whole_.mirror(),
+               may_reach} {}
 
   HullResult run() {
     std::size_t round = 0;
@@ -161,8 +162,9 @@ class Rounds {
 
 }  // namespace
 
-HullResult simplify_in_rounds(const TriangleMesh& mesh, const HullOptions& options, const Box* part) {
-  return Rounds(mesh, options, part).run();
+HullResult simplify_in_rounds(const TriangleMesh& mesh, const HullOptions& options, const Box* part,
+                              const MayReach& may_reach) {
+  return Rounds(mesh, options, part, may_reach).run();
 }
 
 }  // namespace prohull

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "construct/growth.h"
 #include "prohull/hull_builder.h"
 
 namespace prohull {
@@ -12,6 +13,7 @@ namespace prohull {
 ///
 /// With `part`, the mesh is a part of a closed mesh: all faces that reach into that box. Only stars that lie strictly
 /// inside of it change. The hull of the result is then no closed mesh.
-HullResult simplify_in_rounds(const TriangleMesh& mesh, const HullOptions& options, const Box* part = nullptr);
+HullResult simplify_in_rounds(const TriangleMesh& mesh, const HullOptions& options, const Box* part = nullptr,
+                              const MayReach& may_reach = {});
 
 }  // namespace prohull

@@ -171,14 +171,24 @@ TightHull build_tight_hull(const TriangleMesh& mesh, const HullOptions& options,
 
 TriangleMesh moved_towards_closed(const TriangleMesh& hull, const TriangleMesh& mesh, HullSide side,
                                   const MoveOptions& options) {
+  return moved_towards_closed(hull, mesh, side, options, {});
+}
+
+TriangleMesh moved_towards_closed(const TriangleMesh& hull, const TriangleMesh& mesh, HullSide side,
+                                  const MoveOptions& options, const MayReach& may_reach) {
   HalfEdgeMesh moving(turned_if_inner(hull, side));
-  tighten(moving, original_of(mesh, nullptr, side, 0, options.threads), options);
+  tighten(moving, original_of(mesh, nullptr, side, 0, options.threads), options, may_reach);
   return turned_if_inner(moving.triangle_mesh(), side);
 }
 
 TriangleMesh moved_towards(const TriangleMesh& hull, const TriangleMesh& triangles, const MoveOptions& options) {
+  return moved_towards(hull, triangles, options, {});
+}
+
+TriangleMesh moved_towards(const TriangleMesh& hull, const TriangleMesh& triangles, const MoveOptions& options,
+                           const MayReach& may_reach) {
   HalfEdgeMesh moving(turned_if_inner(hull, options.side));
-  tighten(moving, original_of(hull, &triangles, options.side, options.padding, options.threads), options);
+  tighten(moving, original_of(hull, &triangles, options.side, options.padding, options.threads), options, may_reach);
   return turned_if_inner(moving.triangle_mesh(), options.side);
 }
 

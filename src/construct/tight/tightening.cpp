@@ -34,9 +34,10 @@ constexpr std::size_t kLooksPerVertex = 5000, kLooksPerFace = 100;
 /// Finds where vertices may go; one for each thread.
 class Placer {
  public:
-  Placer(const HalfEdgeMesh& mesh, const Original& original, const MoveOptions& options)
+  Placer(const HalfEdgeMesh& mesh, const Original& original, const MoveOptions& options, const MayReach& may_reach)
       : mesh_(mesh),
         options_(options),
+        may_reach_(may_reach),
         allowed_(original.allowed(options.guards.max_overhang)),
         placement_(original, options.float32_coordinates) {}
 
@@ -48,8 +49,9 @@ class Placer {
     placement_.know(known_);
     Box allowed = allowed_;
     allowed.extend(mesh_.position(move.vertex));
-    move.to =
-        placement_.first([&](const Vec3& to) { return allowed.contains(to) && has_good_shape(to) && is_accepted(to); });
+    move.to = placement_.first([&](const Vec3& to) {
+      return allowed.contains(to) && has_good_shape(to) && grows_only_there(to) && is_accepted(to);
+    });
     move.found = placement_.found();
     move.looks += placement_.looks();
   }
@@ -57,9 +59,11 @@ class Placer {
 
  private:
   bool has_good_shape(const Vec3& to) const;
+  bool grows_only_there(const Vec3& to) const;
 
   const HalfEdgeMesh& mesh_;
   const MoveOptions& options_;
+  const MayReach& may_reach_;
   const Box allowed_;  ///< all vertices that do not hang over by more already
   TightPlacement placement_;
   std::vector<VertexId> link_;
@@ -69,13 +73,14 @@ class Placer {
 class Tightener {
  public:
   Tightener(HalfEdgeMesh& mesh, const Original& original, const MoveOptions& options, Contacts& contacts,
-            PerVertex<char> waiting)
+            PerVertex<char> waiting, const MayReach& may_reach = {})
       : mesh_(mesh),
         original_(original),
         options_(options),
         contacts_(contacts),
         guard_(mesh, faces_along_curve(mesh)),
-        placers_([&] { return Placer(mesh, original, options); }),
+        may_reach_(may_reach),
+        placers_([this] { return Placer(mesh_, original_, options_, may_reach_); }),
         waiting_(std::move(waiting)),
         changed_(waiting_),
         batch_(mesh.positions().size(), 0),
@@ -104,6 +109,7 @@ class Tightener {
   const MoveOptions& options_;
   Contacts& contacts_;
   SelfIntersectionGuard guard_;
+  const MayReach may_reach_;
   oneapi::tbb::enumerable_thread_specific<Placer> placers_;
   std::vector<VertexId> link_;      ///< of the vertex in hand
   std::vector<VertexId> order_;     ///< what lies together in space does so in the list, mostly
@@ -228,6 +234,21 @@ bool Placer::has_good_shape(const Vec3& to) const {
          std::min(options_.guards.min_compactness_ratio * least_before, options_.guards.sufficient_compactness);
 }
 
+// Where the vertex goes to the inner side of a face, the hull shrinks there. New corners alone would not do: one that
+// slides along the original spans faces over what is open.
+bool Placer::grows_only_there(const Vec3& to) const {
+  if (!may_reach_) return true;
+  const Vec3 apex = placement_.to_local(to);
+  for (std::size_t i = 0; i < link_.size(); ++i) {
+    const std::size_t next = placement_.after(i);
+    if (dot(apex, cross(placement_.local_link()[i], placement_.local_link()[next])) <= 0) continue;
+    const Vec3 &a = mesh_.position(link_[i]), &b = mesh_.position(link_[next]);
+    for (const Vec3& p : {to, (to + a + b) / 3, (to + a) / 2, (to + b) / 2})
+      if (!may_reach_(p)) return false;
+  }
+  return true;
+}
+
 // Faces (o, d, l), (d, o, r) before, (r, l, o), (l, r, d) after; in a frame with the origin at o.
 bool Tightener::has_good_shape_without(const Tetrahedron& removed) const {
   const double scale =
@@ -250,10 +271,19 @@ bool Tightener::has_good_shape_without(const Tetrahedron& removed) const {
 
 }  // namespace
 
-std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options, Contacts& contacts) {
+namespace {
+
+std::size_t tighten_all(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options, Contacts& contacts,
+                        const MayReach& may_reach) {
   return arena_of(options.threads).execute([&] {
-    return Tightener(hull, original, options, contacts, PerVertex<char>(hull.positions().size(), 1)).run();
+    return Tightener(hull, original, options, contacts, PerVertex<char>(hull.positions().size(), 1), may_reach).run();
   });
+}
+
+}  // namespace
+
+std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options, Contacts& contacts) {
+  return tighten_all(hull, original, options, contacts, {});
 }
 
 std::size_t tighten_around(const std::vector<VertexId>& changed, HalfEdgeMesh& hull, const Original& original,
@@ -265,9 +295,10 @@ std::size_t tighten_around(const std::vector<VertexId>& changed, HalfEdgeMesh& h
   });
 }
 
-std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options) {
+std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options,
+                    const MayReach& may_reach) {
   Contacts contacts(hull.positions().size());
-  return tighten(hull, original, options, contacts);
+  return tighten_all(hull, original, options, contacts, may_reach);
 }
 
 }  // namespace prohull

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "construct/growth.h"
 #include "construct/tight/contacts.h"
 #include "construct/tight/original.h"
 #include "mesh/half_edge_mesh.h"
@@ -15,7 +16,8 @@ namespace prohull {
 ///
 /// Flipping an edge over which the hull is convex removes the tetrahedron of its two faces: the hull still encloses if
 /// the original lies outside of that. Nor is a move or flip made that adds a pair of intersecting faces.
-std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options);
+std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options,
+                    const MayReach& may_reach = {});
 /// With the contacts of the hull's vertices from before, and those that it finds.
 std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options, Contacts& contacts);
 /// The same where only these vertices have changed since the hull was tightened last.
