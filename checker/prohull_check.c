@@ -1401,7 +1401,7 @@ int main(int count, char** names) {
       printf(c.inner ? "the original covers every triangle of the hull" : "the hull covers every finite triangle");
     if (c.claims & k & ENCLOSES) printf(c.inner ? "the solid encloses the hull" : "the hull encloses the solid");
     if (c.claims & k & GAP) printf("the hull keeps a gap of at least %.17g", c.gap);
-    if (c.claims & k & DISTANCE) printf("no point of the hull is farther than %.17g from the triangles", c.distance);
+    if (c.claims & k & DISTANCE) printf("no point of the surface of the hull is farther than %.17g from the triangles", c.distance);
   }
   if (c.original.infinite) printf("; triangles of the original that are not finite: %lu", COUNT(c.original.infinite));
   if (turned) printf("; components of the original that are turned: %lu%s", COUNT(turned), all ? ", which are all" : "");

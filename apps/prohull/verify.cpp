@@ -96,9 +96,12 @@ void print_summary(const VerifyOptions& options, const Verification& found, cons
   if (has_failed_replay(found)) return;
   if (!std::isnan(found.hull_volume))
     say("  hull: volume {:.9g}{}\n", found.hull_volume, text_of_void(found.void_ratio));
-  if (gap > 0 && !std::isnan(found.least_distance))
-    say("  least distance: at most {}\n", found.keeps_gap ? fmt::format("{:.9g}", rounded_up(found.least_distance, 9))
-                                                          : distance_text(found.least_distance, gap, 9));
+  if (gap > 0 && !std::isnan(found.least_distance)) {
+    const bool is_hidden = !found.keeps_gap && found.least_distance == gap;  // then it is less
+    say("  least distance: {}{}\n", is_hidden ? "" : "at most ",
+        found.keeps_gap ? fmt::format("{:.9g}", rounded_up(found.least_distance, 9))
+                        : distance_text(found.least_distance, gap, 9));
+  }
   say("  {} intersects itself in {}\n", hull, counted(found.self_intersections, "pair of faces", "pairs of faces"));
 }
 
@@ -206,12 +209,14 @@ std::string table_row(const Judged& judged, int exit_code) {
 
 using Paths = std::vector<std::filesystem::path>;
 
-/// Takes out of `hulls` those of each mesh: of its name with the suffix, or, if none is left for it, without.
+/// Takes out of `hulls` those of each mesh: of its name with the suffix, or without, if no other mesh wants them.
 std::map<std::filesystem::path, Paths> taken_by_mesh(const Paths& meshes, Paths& hulls) {
   std::map<std::filesystem::path, Paths> taken;
   const auto take = [&](const auto& name_of) {
+    std::map<std::filesystem::path, std::size_t> wanting;
+    for (const auto& mesh : meshes) wanting[name_of(mesh)] += taken[mesh].empty() ? 1 : 0;
     for (const auto& mesh : meshes)
-      if (Paths& of_mesh = taken[mesh]; of_mesh.empty()) {
+      if (Paths& of_mesh = taken[mesh]; of_mesh.empty() && wanting[name_of(mesh)] == 1) {
         const auto is_other = [&](const auto& hull) { return name_of(hull) != name_of(mesh); };
         const auto its = std::stable_partition(hulls.begin(), hulls.end(), is_other);
         of_mesh.assign(its, hulls.end());
@@ -228,7 +233,7 @@ std::filesystem::path only_hull_of(const std::filesystem::path& mesh, const Path
   if (hulls.size() == 1) return hulls.front();
   throw InputError(Defect::CannotRead,
                    fmt::format("{}: {} has {}; give the two files{}", mesh.string(), folder.string(),
-                               hulls.empty() ? "no mesh file of this name"
+                               hulls.empty() ? "no mesh file of this name, or only one that may be another mesh's"
                                              : fmt::format("several mesh files of this name, {} and {}",
                                                            hulls[0].filename().string(), hulls[1].filename().string()),
                                hulls.empty() ? ", as for .phull files" : ""));
@@ -252,7 +257,8 @@ int run_verify_folders(const VerifyOptions& options) {
                                    return MeshOutcome{code, {table_row(judged, code)}, code == kDone};
                                  });
   for (const auto& hull : hulls)
-    tell_error(fmt::format("{}: {} has no mesh of this name", hull.string(), options.original.string()));
+    tell_error(fmt::format("{}: {} has no mesh of this name that has no other hull", hull.string(),
+                           options.original.string()));
   return hulls.empty() ? exit_code : kBadInput;
 }
 

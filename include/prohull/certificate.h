@@ -26,9 +26,9 @@ struct CertifiedOriginal {
 struct HullClaims {
   HullSide side = HullSide::Outer;
   double gap = 0;  ///< that the hull keeps from the triangles, in their unit; 0: says nothing of it
-  /// Which no point of the hull exceeds from the triangles, in their unit; infinity: says nothing of it. It is left
-  /// out, too, where it does not hold, or leaves so little to spare that the proof would be much larger than the
-  /// meshes.
+  /// Which no point of the hull's surface exceeds from the triangles, in their unit; infinity: says nothing of it. It
+  /// is left out, too, where it does not hold, or leaves so little to spare that the proof would be much larger than
+  /// the meshes.
   double distance = std::numeric_limits<double>::infinity();
 };
 

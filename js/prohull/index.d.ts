@@ -64,7 +64,7 @@ export interface Levels {
   splits: Uint32Array;
 }
 
-/** Proven: no point is farther than that. */
+/** Proven: no point of the surface is farther than that. */
 interface Distances {
   /** From all triangles. */
   distanceToTriangles?: number;

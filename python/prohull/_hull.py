@@ -205,7 +205,7 @@ class Hull(Mesh):
 
     @property
     def distance_bound(self) -> float:
-        """No point of the hull is farther than this from the finite triangles of the mesh and from what closes its
+        """No point of its surface is farther than this from the finite triangles of the mesh and from what closes its
         openings, in the mesh's unit: proven. Of a hull that was loaded, the mesh is the finest level.
 
         At most 1 % more than the true distance, or than max_distance if that was kept, unless finding it takes too long. Computed when it is first asked for.

@@ -21,7 +21,7 @@ proves() {
 # --- hulls ---
 proves "a hull" bracket.stl hull.stl --faces 200
 says out "a hull: what is proven" "encloses the solid"
-says out "a hull: how far it is" "no point of the hull is farther than"
+says out "a hull: how far it is" "no point of the surface of the hull is farther than"
 proves "doubles" bracket.ply hull.ply --faces 400
 proves "float32 from doubles" torus.obj hull.stl --faces 100
 proves "an inner hull" knot.off hull.obj --faces 300 --side inner

@@ -469,7 +469,7 @@ class Distances(Checked):
             return None
 
         trees = [bisected_tree(t, leaf) for t in soup(WIDE)]
-        self.expect(PROVEN, "no point of the hull is farther than 1.7320508075688", [distance(corner + 1e-15, trees)], WIDE, CUBE)
+        self.expect(PROVEN, "no point of the surface of the hull is farther than 1.7320508075688", [distance(corner + 1e-15, trees)], WIDE, CUBE)
         self.expect(NOT_PROVEN, "farther", [distance(1.7, trees)], WIDE, CUBE)
 
 

@@ -182,7 +182,7 @@ expect 0 "two folders" $prohull verify pairs parts --finite-only
 says out "two folders" "2 of 2 meshes: as asked"
 cp three.ply pairs/other.ply
 expect 3 "a hull without a mesh" $prohull verify pairs parts --report 'pairs/{name}_report.json'
-says err "a hull without a mesh" "pairs/other.ply: parts has no mesh of this name"
+says err "a hull without a mesh" "pairs/other.ply: parts has no mesh of this name that has no other hull"
 is "two folders: reports" test -s pairs/one_report.json -a -s pairs/two_report.json
 mv pairs/other.ply pairs/three.ply
 rm pairs/two.ply
@@ -201,6 +201,10 @@ rm kinds/a.ply kinds/a.obj
 $prohull sample box --faces 100 -o kinds/a.off >/dev/null
 expect 3 "two hulls of one name" $prohull verify kind_hulls kinds
 says err "two hulls of one name" "kinds/a.off: kind_hulls has several mesh files of this name, a.obj and a.ply; give the two files"
+rm kind_hulls/a.obj
+$prohull sample sphere --faces 100 -o kinds/a.obj >/dev/null
+expect 3 "a hull that may be of two meshes" $prohull verify kind_hulls kinds
+says err "a hull that may be of two meshes" "kinds/a.off: kind_hulls has no mesh file of this name, or only one that may be another mesh's"
 expect 2 "one report for two" $prohull verify pairs parts --report r.json
 says err "one report for two" "as in --report '{name}.json'"
 expect 0 "pieces of a folder" $prohull convex parts -o pieces/ --pieces 2
