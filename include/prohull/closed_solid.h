@@ -9,7 +9,7 @@
 namespace prohull {
 
 struct ClosedSolidOptions {
-  RepairOptions repair{.keep_cavities = true, .turn_crossing = true};
+  RepairOptions repair{.keep_cavities = true, .fill_crossing = true};
   /// Of the wrap that is made where repairs do not do, in the input's unit; 0: 1/256 of the diagonal of the input's
   /// box.
   double spacing = 0;

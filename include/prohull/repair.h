@@ -21,9 +21,9 @@ struct Repairs {
   std::size_t turned_single_faces = 0;       ///< faces turned to agree with their neighbours about the outside
   std::size_t turned_components = 0;         ///< components turned because they were inside out
   std::size_t turned_faces = 0;              ///< faces of these components
-  /// Components turned although they cross or repeat others, so that they may have been meant as holes.
-  std::size_t turned_crossing_components = 0;
-  std::size_t turned_crossing_faces = 0;    ///< faces of these components
+  /// Components that are inside out beside the others, and cross or repeat them: they may be holes, and count as solid.
+  std::size_t crossing_components = 0;
+  std::size_t crossing_faces = 0;           ///< faces of these components
   std::size_t dropped_components = 0;       ///< components dropped because they lay inside of others
   std::size_t dropped_component_faces = 0;  ///< faces of these components
   std::size_t closed_openings = 0;          ///< openings that got a cap
@@ -64,9 +64,10 @@ Names<OpenShells> open_shells_names();
 struct RepairOptions {
   bool keep_cavities = false;  ///< keep components that lie inside of another one without touching it
   OpenShells open_shells = OpenShells::Close;
-  /// Turn components that are inside out and cross or repeat others, so that what they enclose counts as solid, for
-  /// what has to enclose all that may be meant; else they are an obstacle.
-  bool turn_crossing = false;
+  /// Of a mesh that is not closed, what components enclose that are inside out and cross or repeat others counts as
+  /// solid, for what has to enclose all that may be meant. Else, and of a closed mesh, where winding numbers make them
+  /// holes, they are an obstacle.
+  bool fill_crossing = false;
 };
 
 /// What repaired_mesh makes of any triangles.

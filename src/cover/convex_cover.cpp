@@ -187,7 +187,7 @@ class Covering {
   ConvexCover run() {
     ConvexCover cover = certified_cover();
     cover.fills_cavities = add_note_of_cavities(inside_without_cavities_.volume, inside_.volume, cover.notes);
-    add_note_of_left_out(prepared_.repairs, cover.notes);
+    add_notes_of_repairs(prepared_.repairs, cover.notes);
     return cover;
   }
 

@@ -31,7 +31,10 @@ inline Wrap wrap_around(const TriangleMesh& with_caps, double spacing, const Pro
   return wrap(with_caps, {.spacing = spacing, .seal_rooms = true, .closing = kClosing * spacing, .progress = progress});
 }
 
-inline void add_note_of_left_out(const Repairs& repairs, std::vector<std::string>& notes) {
+inline void add_notes_of_repairs(const Repairs& repairs, std::vector<std::string>& notes) {
+  if (repairs.crossing_components > 0)
+    notes.push_back(fmt::format("components that are inside out and cross or repeat others count as solid: {}",
+                                repairs.crossing_components));
   if (repairs.dropped_non_finite_faces > 0)
     notes.push_back(
         fmt::format("triangles with corners that are not finite were left out: {}", repairs.dropped_non_finite_faces));

@@ -76,7 +76,7 @@ class SphereCoverer {
     const Stopwatch all;
     find_solid();
     SphereCover cover = best_cover();
-    cover::add_note_of_left_out(input_.repairs, cover.notes);
+    cover::add_notes_of_repairs(input_.repairs, cover.notes);
     cover.seconds = all.seconds();
     return cover;
   }
@@ -103,7 +103,7 @@ class SphereCoverer {
     depth_.emplace(solid_, slack_, std::move(sheets), meter);
   }
 
-  /// The faces that bound no part of a solid, as both sides of a loose triangle.
+  /// The faces that bound no part of a solid, as both sides of a loose triangle; of a tangle, all that meet others.
   TriangleMesh faces_beside(const TriangleMesh& solid) const {
     TriangleMesh faces;
     verify::KnownSolid known(solid, "solid");
@@ -292,7 +292,8 @@ class SphereCoverer {
 
   void measure(SphereCover& cover) const {
     DistanceBounds reach = reach_of(cover.balls), from_triangles = reach;
-    if (cover.is_of_wrap || input_.caps.face_count() > 0 || input_.dropped.face_count() > 0)
+    if (cover.is_of_wrap || input_.caps.face_count() > 0 || input_.dropped.face_count() > 0 ||
+        input_.repairs.crossing_components > 0)
       from_triangles = union_reach(cover.balls, input_.original, {.progress = options_.progress});
     reach.upper = std::min(reach.upper, from_triangles.upper);  // the solid has the triangles
     cover.verdict.distance_to_triangles = from_triangles, cover.verdict.distance_to_solid = reach;

@@ -173,7 +173,7 @@ RepairedMesh prepared_for_hulls(TriangleMesh triangles, const EnclosingOptions& 
   const bool is_outer = options.hull.side == HullSide::Outer;
   RepairedMesh result = repaired_mesh(std::move(triangles), {.keep_cavities = options.keep_cavities || !is_outer,
                                                              .open_shells = options.open_shells,
-                                                             .turn_crossing = is_outer});
+                                                             .fill_crossing = is_outer});
   if (!is_outer && !result.closed)
     throw InputError(Defect::OpenEdge, result.obstacle + "; there is no inner hull of what bounds no solid");
   return result;

@@ -38,8 +38,8 @@ void require_faces(const TriangleMesh& mesh) {
     refuse(fmt::format("{} faces; at most {} are supported", grouped(mesh.face_count()), grouped(kMostFaces)));
 }
 
-void face_outwards(ClosedMesh& closed, bool turn_crossing) {
-  turn_outwards(closed.mesh, closed.report.components, turn_crossing, closed.repairs);
+void face_outwards(ClosedMesh& closed, bool fill_crossing) {
+  turn_outwards(closed.mesh, closed.report.components, fill_crossing, closed.repairs);
   closed.report.volume = signed_volume(closed.mesh);
   if (!(closed.report.volume > 0)) throw InputError(Defect::NoVolume, "the mesh encloses no volume");
 }
@@ -95,7 +95,7 @@ TriangleMesh without(const TriangleMesh& mesh, const TriangleMesh& other) {
 void try_to_close(ClosedMesh& closed, const RepairOptions& options, RepairedMesh& result) {
   try {
     close(closed);
-    face_outwards(closed, options.turn_crossing);
+    face_outwards(closed, options.fill_crossing && !is_closed(result.original));
     if (!options.keep_cavities) drop_nested(closed);
     result.dropped = without(result.original, closed.mesh);
     result.repairs = closed.repairs;
@@ -181,12 +181,12 @@ std::vector<std::string> describe(const Repairs& repairs) {
     phrases.push_back(fmt::format("turned {} inside out ({} faces)",
                                   counted(repairs.turned_components, "component that was", "components that were"),
                                   grouped(repairs.turned_faces)));
-  if (repairs.turned_crossing_components > 0)
-    phrases.push_back(
-        fmt::format("turned {} inside out and {} others ({} faces), so that {} inside counts as solid",
-                    counted(repairs.turned_crossing_components, "component that was", "components that were"),
-                    repairs.turned_crossing_components == 1 ? "crosses" : "cross",
-                    grouped(repairs.turned_crossing_faces), repairs.turned_crossing_components == 1 ? "its" : "their"));
+  if (repairs.crossing_components > 0)
+    phrases.push_back(fmt::format("counted {} inside out and {} or {} others as solid ({} faces)",
+                                  counted(repairs.crossing_components, "component that is", "components that are"),
+                                  repairs.crossing_components == 1 ? "crosses" : "cross",
+                                  repairs.crossing_components == 1 ? "repeats" : "repeat",
+                                  grouped(repairs.crossing_faces)));
   if (repairs.dropped_components > 0)
     phrases.push_back(fmt::format("dropped {} inside of others ({} faces)",
                                   counted(repairs.dropped_components, "component"),
@@ -210,7 +210,7 @@ ClosedMesh closed_mesh(TriangleMesh mesh) {
                          "; a hull needs a closed 2-manifold: close holes and separate parts "
                          "that meet in an edge or vertex first");
   require_usable_size(closed.report.box);
-  face_outwards(closed, /*turn_crossing=*/false);
+  face_outwards(closed, /*fill_crossing=*/false);
   return closed;
 }
 

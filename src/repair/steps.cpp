@@ -302,7 +302,7 @@ void split_vertices(TriangleMesh& mesh, FansAlong along, Repairs& repairs) {
   separate_wedges(mesh, neighbours);
 }
 
-void turn_outwards(TriangleMesh& mesh, std::size_t components, bool turn_crossing, Repairs& repairs) {
+void turn_outwards(TriangleMesh& mesh, std::size_t components, bool fill_crossing, Repairs& repairs) {
   const std::vector<std::uint32_t> component = component_of_faces(mesh);
   const auto triangle = [&](std::size_t f) { return mesh.triangle(FaceId(static_cast<std::uint32_t>(f))); };
   const Orientation facing = orientation(triangle, component, components);
@@ -311,19 +311,23 @@ void turn_outwards(TriangleMesh& mesh, std::size_t components, bool turn_crossin
   };
   for (const FaceId f : mesh.triangles.ids()) {
     const Facing own = facing.components[component[index(f)]];
-    if (own == Facing::Unclear && !turn_crossing)
+    if (own == Facing::Unclear && !fill_crossing)
       throw InputError(
           Defect::InconsistentOrientation,
           fmt::format("the component of face {} {}, and crosses or repeats others: turn it, or make it a "
                       "cavity of one of them",
                       index(f),
                       facing.turn_all ? "looks outwards, while the mesh as a whole is inside out" : "is inside out"));
+    if (own == Facing::Unclear) ++repairs.crossing_faces;
     if (!is_turned(own)) continue;
     std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
-    ++(own == Facing::Unclear ? repairs.turned_crossing_faces : repairs.turned_faces);
+    repairs.turned_faces += own == Facing::Unclear ? 0 : 1;
   }
   for (const Facing own : facing.components)
-    if (is_turned(own)) ++(own == Facing::Unclear ? repairs.turned_crossing_components : repairs.turned_components);
+    if (own == Facing::Unclear)
+      ++repairs.crossing_components;
+    else
+      repairs.turned_components += is_turned(own) ? 1 : 0;
 }
 
 void drop_nested_components(TriangleMesh& mesh, std::size_t components, Repairs& repairs) {

@@ -32,8 +32,8 @@ enum class FansAlong { EdgesOfTwo, Wedges };
 void split_vertices(TriangleMesh& mesh, FansAlong along, Repairs& repairs);
 
 /// Turns a closed mesh of negative volume, and then each component of negative volume outside of the others. One that
-/// is partly inside of them is turned too if `turn_crossing`, else InputError is thrown.
-void turn_outwards(TriangleMesh& mesh, std::size_t components, bool turn_crossing, Repairs& repairs);
+/// is partly inside of them looks outwards then, too, if `fill_crossing`; else InputError is thrown.
+void turn_outwards(TriangleMesh& mesh, std::size_t components, bool fill_crossing, Repairs& repairs);
 
 /// Drops the components of a closed mesh of oriented components that lie inside of one that faces outwards, without
 /// touching it.

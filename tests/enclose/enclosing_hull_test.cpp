@@ -249,22 +249,22 @@ TEST(EnclosingHull, TriesOtherWrapsWhereTheirHullsAreStuck) {
 TEST(EnclosingHull, OfWhatCoversItsConvexHullTakesNoWrap) {
   const TriangleMesh solid = octahedron();
   const EnclosingHulls made = hull_of(together(inside_out(solid), solid), 100);
-  EXPECT_TRUE(std::ranges::none_of(made.solids, [](const Solid& s) { return s.source == Source::Wrap; }));
+  EXPECT_EQ(made.solids.size(), 1u);
   EXPECT_TRUE(made.hulls[0].certified);
   EXPECT_EQ(made.hulls[0].mesh.face_count(), 8u);
 }
 
 // Whether the bar is meant as a hole or as a part, a hull of both as solids holds. That of a wrap had 8,744 faces and
-// missed the bound.
+// missed the bound. In a closed mesh the bar is a hole.
 TEST(EnclosingHull, OfABarThatMayBeAHoleIsThatOfTheMesh) {
-  const TriangleMesh rock = make_sample("asteroid", 400);
+  const TriangleMesh rock = without_a_face(make_sample("asteroid", 400));
   const double reach = 1.5 * bounding_box(rock).max.z;
   const TriangleMesh mesh = together(rock, inside_out(box(Vec3{-0.1, -0.1, -1} * reach, Vec3{0.1, 0.1, 1} * reach)));
   const EnclosingHulls made = hull_of(mesh, 20, {.bounds = {.max_distance = 0.001 * bounding_box(mesh).diagonal()}});
-  EXPECT_EQ(made.input.repairs.turned_crossing_components, 1u);
+  EXPECT_EQ(made.input.repairs.crossing_components, 1u);
   EXPECT_TRUE(only(made).certified && only(made).within_bounds);
   EXPECT_EQ(only(made).source, Source::Mesh);
-  EXPECT_LE(only(made).mesh.face_count(), mesh.face_count());
+  EXPECT_LE(only(made).mesh.face_count(), mesh.face_count() + 1);
   EXPECT_THROW(hull_of(mesh, 100, {.hull = {.side = HullSide::Inner}}), InputError) << "there, it may be a hole";
 }
 

@@ -120,17 +120,17 @@ TEST(RepairedMesh, TurnsSingleFaces) {
   EXPECT_EQ(repaired.dropped.face_count(), 0u);
 }
 
-TEST(RepairedMesh, TurnsWhatCrossesOthersIfAskedTo) {
-  const TriangleMesh crossed =
-      together(box({-1, -1, -1}, {1, 1, 1}), inside_out(box({-0.5, -0.5, -1.5}, {0.5, 0.5, 1.5})));
+TEST(RepairedMesh, FillsWhatCrossesOthersIfAskedTo) {
+  const TriangleMesh bar = inside_out(box({-0.5, -0.5, -1.5}, {0.5, 0.5, 1.5}));
+  TriangleMesh crossed = together(box({-1, -1, -1}, {1, 1, 1}), bar);
+  EXPECT_FALSE(repaired_mesh(crossed, {.fill_crossing = true}).closed) << "the bar is a hole";
+  crossed.triangles.pop_back();
   EXPECT_FALSE(repaired_mesh(crossed).closed);
-  const RepairedMesh turned = repaired_mesh(crossed, {.turn_crossing = true});
-  ASSERT_TRUE(turned.closed);
-  EXPECT_DOUBLE_EQ(turned.closed->report.volume, 8 + 3);
-  EXPECT_EQ(
-      describe(turned.repairs),
-      std::vector<std::string>{"turned 1 component that was inside out and crosses others (12 faces), so that its "
-                               "inside counts as solid"});
+  const RepairedMesh filled = repaired_mesh(crossed, {.fill_crossing = true});
+  ASSERT_TRUE(filled.closed);
+  EXPECT_DOUBLE_EQ(filled.closed->report.volume, 8 + 3);
+  EXPECT_EQ(describe(filled.repairs).back(),
+            "counted 1 component that is inside out and crosses or repeats others as solid (12 faces)");
 }
 
 TEST(RepairedMesh, SplitsVerticesWherePartsMeet) {
