@@ -133,6 +133,7 @@ test('a dropped file of levels shows them, and tells of each what the command te
     return lines;
   };
   await dropped(page, all);
+  assert.match((await told())[0], /^core_level\.stl: 200 faces of 2,976$/);
   await page.selectOption('#want-to', 'ply');
   await settled(page);
   assert.equal(await text(page, 'problem'), '');

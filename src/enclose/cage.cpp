@@ -13,6 +13,7 @@
 #include "construct/turned.h"
 #include "enclose/known_void.h"
 #include "prohull/collide.h"
+#include "prohull/detail/refuse.h"
 #include "prohull/detail/summary.h"
 #include "prohull/detail/text.h"
 #include "prohull/enclosure.h"
@@ -252,7 +253,6 @@ void CageMaker::note_contacts() {
 }
 
 void require_usable(const CageOptions& options) {
-  const auto refuse = [](const std::string& what) { throw InputError(Defect::InvalidOption, what); };
   if (!(options.gap >= 0 && std::isfinite(options.gap)))
     refuse(fmt::format("the gap is {:g}; it must be a number of at least 0", options.gap));
   if (options.outer_faces < 4 || (options.inner_faces > 0 && options.inner_faces < 4))

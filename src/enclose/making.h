@@ -53,6 +53,8 @@ TriangleMesh placed(const TriangleMesh& level, const Making& making, unsigned ma
 // One for each method.
 EnclosingHull built_of_levels(const Making& making);
 EnclosingHull built_in_steps(const Making& making);
+/// How far a hull reaches out of the triangles at most, by a short search.
+double short_bound_of_reach(const TriangleMesh& hull, const TriangleMesh& triangles);
 /// None if it has more faces than asked for, or reaches out farther than it may.
 std::optional<EnclosingHull> built_early(const Making& making);
 EnclosingHull built_within(const Making& making);

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "enclose/candidates.h"
-#include "prohull/distance.h"
+#include "enclose/making.h"
 
 namespace prohull {
 namespace {
@@ -134,12 +134,11 @@ void Candidates::plan_clear_of_wraps() {
 void Candidates::plan_early() {
   steps_.push_back([this](const Ranking& ranking, Solids&) -> std::optional<Candidate> {
     if (request_.is_padded() || !has_few_faces(ranking)) return std::nullopt;
-    constexpr std::size_t kMostCells = 20'000;
     const Attempt& best = ranking.best();
     if (best.hull.source != Source::Wrap || best.candidate.recipe.method != Method::InSteps) return std::nullopt;
     Candidate candidate = best.candidate;
     candidate.recipe.method = Method::Early;
-    candidate.within = distance_bounds(best.hull.mesh, request_.input.original, {.max_cells = kMostCells}).upper;
+    candidate.within = short_bound_of_reach(best.hull.mesh, request_.input.original);
     return candidate;
   });
 }

@@ -271,19 +271,11 @@ bool Tightener::has_good_shape_without(const Tetrahedron& removed) const {
 
 }  // namespace
 
-namespace {
-
-std::size_t tighten_all(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options, Contacts& contacts,
-                        const MayReach& may_reach) {
+std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options, Contacts& contacts,
+                    const MayReach& may_reach) {
   return arena_of(options.threads).execute([&] {
     return Tightener(hull, original, options, contacts, PerVertex<char>(hull.positions().size(), 1), may_reach).run();
   });
-}
-
-}  // namespace
-
-std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options, Contacts& contacts) {
-  return tighten_all(hull, original, options, contacts, {});
 }
 
 std::size_t tighten_around(const std::vector<VertexId>& changed, HalfEdgeMesh& hull, const Original& original,
@@ -298,7 +290,7 @@ std::size_t tighten_around(const std::vector<VertexId>& changed, HalfEdgeMesh& h
 std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options,
                     const MayReach& may_reach) {
   Contacts contacts(hull.positions().size());
-  return tighten_all(hull, original, options, contacts, may_reach);
+  return tighten(hull, original, options, contacts, may_reach);
 }
 
 }  // namespace prohull

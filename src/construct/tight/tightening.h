@@ -19,7 +19,8 @@ namespace prohull {
 std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options,
                     const MayReach& may_reach = {});
 /// With the contacts of the hull's vertices from before, and those that it finds.
-std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options, Contacts& contacts);
+std::size_t tighten(HalfEdgeMesh& hull, const Original& original, const MoveOptions& options, Contacts& contacts,
+                    const MayReach& may_reach = {});
 /// The same where only these vertices have changed since the hull was tightened last.
 std::size_t tighten_around(const std::vector<VertexId>& changed, HalfEdgeMesh& hull, const Original& original,
                            const MoveOptions& options, Contacts& contacts);
