@@ -17,7 +17,7 @@ struct DistanceBounds {
 };
 
 struct DistanceOptions {
-  double relative_gap = 0.01;         ///< the search ends when upper <= (1 + relative_gap) lower; at least 0
+  double relative_gap = 0.01;  ///< the search ends when upper <= (1 + relative_gap) lower, but for rounding; at least 0
   std::size_t max_cells = 1'000'000;  ///< the search also ends after this many parts of faces; `upper` still holds then
   /// The search goes on until it is known whether `upper` is at most this, if it can be; below, `upper` may then be
   /// farther off.

@@ -46,6 +46,7 @@ DistanceBounds distance_bounds(const TriangleMesh& from, const TriangleMesh& to,
   const verify::FarFromFaces rule(faces);
   const double rounding = verify::rounding_of_distances(largest);
   verify::FarFromFaces::Search search(rule, {.relative_gap = options.relative_gap,
+                                             .absolute_gap = rounding,
                                              .max_parts = options.max_cells,
                                              .decides = std::isfinite(options.decides) ? options.decides - rounding : 0,
                                              .patience = options.max_cells / 8});

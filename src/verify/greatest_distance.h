@@ -64,15 +64,15 @@ class GreatestDistance {
   /// No point of the part that counts is farther away than `upper`.
   void add(const Part& part, double upper) {
     ++seen_;
-    if (is_enough(upper)) {
-      settled_ = std::max(settled_, upper);
-      return;
-    }
+    if (is_enough(upper)) return leave(upper);
     if (free_.empty()) free_.push_back(parts_.size()), parts_.emplace_back();
     parts_[free_.back()] = part;
     open_.push({upper, free_.back()});
     free_.pop_back();
   }
+
+  /// The same of a part that is not to be cut.
+  void leave(double upper) { settled_ = std::max(settled_, upper); }
 
   /// Of all parts that were added; calls `next` before it cuts one.
   template <class Next>
@@ -100,7 +100,7 @@ class GreatestDistance {
   std::vector<Part> parts_;
   std::vector<std::size_t> free_;  ///< places in `parts_` of parts that were cut
   HeapWithTies<Open> open_;
-  double settled_ = 0;  ///< the greatest bound of parts that need not be cut
+  double settled_ = 0;  ///< the greatest bound of parts that are not cut
   std::size_t seen_ = 0;
   DistanceBounds bounds_;
 };

@@ -184,11 +184,11 @@ struct CutPlace {
 };
 
 /// Where another face becomes the nearer one: both halves are then near to one. Of strips that lie over strips, this
-/// leaves half of the parts that halves of the longest side do. Short sides would lead to ever shorter ones.
+/// leaves half of the parts that halves of the longest side do, and of faces in one plane few more than there are edges
+/// between them. Short sides would lead to ever shorter ones.
 CutPlace cut_place(const FarFromFaces::Part& part) {
-  constexpr double kShort = 0.25;  // of the bound
-  constexpr double kSteps = 16;    // with which a fraction and a coordinate are multiplied almost exactly
-  constexpr double kFewest = 2;    // of these steps
+  constexpr double kShort = 0.25;   // of the bound
+  constexpr double kLeast = 0.125;  // of the side
   double greatest = kShort * upper(part);
   CutPlace place{static_cast<std::size_t>(longest_side(part.corners)), 0.5};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -197,7 +197,7 @@ CutPlace cut_place(const FarFromFaces::Part& part) {
                  from_j = part.distances[j][i] - part.distances[j][j];
     if (!(from_i > 0 && from_j > 0 && from_i + from_j > greatest)) continue;
     greatest = from_i + from_j;
-    place = {i, std::clamp(std::round(kSteps * from_i / greatest), kFewest, kSteps - kFewest) / kSteps};
+    place = {i, std::clamp(from_i / greatest, kLeast, 1 - kLeast)};
   }
   return place;
 }
@@ -205,7 +205,7 @@ CutPlace cut_place(const FarFromFaces::Part& part) {
 }  // namespace
 
 void FarFromFaces::add(const Triangle& t, const std::array<NearestFace::Found, 3>& nearest, Search& search) const {
-  Part part{{t.a, t.b, t.c}, {}, {}};
+  Part part{{t.a, t.b, t.c}, {}, {}, 0};
   for (std::size_t j = 0; j < 3; ++j) part.faces[j] = nearest[j].face;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
@@ -222,12 +222,15 @@ NearestFace::Found FarFromFaces::look_at(const Vec3& p, Search& search, const Ne
 }
 
 void FarFromFaces::cut(const Part& part, Search& search) const {
+  if (part.cuts == kMostCuts) return search.leave(upper(part));
   const auto [i, fraction] = cut_place(part);
   const std::size_t j = (i + 1) % 3;
   const Vec3 p = part.corners[i] * (1 - fraction) + part.corners[j] * fraction;
   std::array<double, 3> distances;
   for (std::size_t k = 0; k < 3; ++k) distances[k] = faces_.distance(p, part.faces[k]);
-  Part one = part, other = part;
+  Part one = part;
+  ++one.cuts;
+  Part other = one;
   one.corners[j] = other.corners[i] = p;
   one.distances[j] = other.distances[i] = distances;
   if (search.is_enough(upper(one)) && search.is_enough(upper(other))) {

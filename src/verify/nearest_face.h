@@ -28,8 +28,9 @@ DistanceBounds unscaled(const DistanceBounds& bounds, double unit);
 
 /// How far bounds are off that were found in usable units: a closest point is computed from differences, within 16 eps
 /// of the largest coordinate for each of its own (a sum of three with factors in [0, 1]), and its distance to p adds as
-/// much again. Each cut of a part at a rounded point adds at most 2 sqrt(3) eps. There is room for 130 of them, one
-/// within the other: 106 halvings, 53 in each direction of a plane, leave no number between corners.
+/// much again. Each cut of a part at a rounded point, a (1 - f) + b f, adds at most 3 sqrt(3) eps: so many of them, one
+/// within the other, have room.
+constexpr std::uint8_t kMostCuts = 87;
 inline double rounding_of_distances(double largest_coordinate) { return 512 * 0x1p-53 * largest_coordinate; }
 
 /// Of the faces of a mesh, which must outlive it. Distances are rounded.
@@ -76,6 +77,7 @@ class FarFromFaces {
     std::array<Vec3, 3> corners;
     std::array<std::uint32_t, 3> faces;              ///< near each corner
     std::array<std::array<double, 3>, 3> distances;  ///< [i][j]: of corner i from face j
+    std::uint8_t cuts;                               ///< that led to it; at most kMostCuts
   };
   using Search = GreatestDistance<FarFromFaces>;
 

@@ -103,6 +103,14 @@ TEST(DistanceBounds, OfAMeshFromItselfIsNextToNothing) {
   EXPECT_LT(distance_bounds(mesh, mesh).upper, 1e-12);
 }
 
+TEST(DistanceBounds, OfFacesInOnePlaneTakeFewParts) {
+  const TriangleMesh cube = box({0, 0, 0}, {1, 1, 1});
+  TriangleMesh divided = subdivided(subdivided(cube));
+  for (Vec3& p : divided.positions)
+    for (int axis = 0; axis < 3; ++axis) p[axis] *= 0.7 + 0.3 * p[axis];  // its faces lie in those of the cube
+  EXPECT_LT(distance_bounds(cube, divided, {.max_cells = 1000 * divided.face_count()}).upper, 1e-12);
+}
+
 TEST(DistanceBounds, OfNeedlesAndPointsAreThoseOfTheirCorners) {
   const TriangleMesh needle = make({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}});
   const TriangleMesh point = make({{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}, {{0, 1, 2}});
