@@ -70,14 +70,15 @@ Way longest_way(const Polygon& polygon) {
 /// are within the distance of it, are cut out of the face. So parts of a plane need no more parts than faces.
 class WithinSearch {
  public:
-  WithinSearch(const NearestFace& faces, const TriangleMesh& mesh, double distance)
-      : faces_(faces), mesh_(mesh), distance_(distance) {}
+  /// `per_cut`: how far a cut may round a point.
+  WithinSearch(const NearestFace& faces, const TriangleMesh& mesh, double per_cut)
+      : faces_(faces), mesh_(mesh), per_cut_(per_cut) {}
 
-  bool holds(const Triangle& t) {
+  bool holds(const Triangle& t, double distance) {
     constexpr std::size_t kMostParts = 10'000;
-    open_.assign(1, {t.a, t.b, t.c});
+    open_.assign(1, {{t.a, t.b, t.c}, distance});
     for (std::size_t parts = 0; !open_.empty(); ++parts) {
-      const Polygon part = std::move(open_.back());
+      const Part part = std::move(open_.back());
       open_.pop_back();
       if (parts == kMostParts || !is_done(part)) return false;
     }
@@ -85,54 +86,60 @@ class WithinSearch {
   }
 
  private:
+  struct Part {
+    Polygon corners;
+    double within;  ///< what is left of the distance by the rounding of cuts
+  };
+
   /// Whether the part is covered, or what is left of it is open; not if it is too far away.
-  bool is_done(const Polygon& part) {
+  bool is_done(const Part& part) {
     Vec3 middle;
-    for (const Vec3& p : part) middle = middle + p * (1.0 / double(part.size()));
+    for (const Vec3& p : part.corners) middle = middle + p * (1.0 / double(part.corners.size()));
     const auto found = faces_.nearest(middle, NearestFace::kNone, looked_at_);
-    if (found.distance > distance_) return false;
+    if (found.distance > part.within) return false;
     if (is_covered(part, found.face)) return true;
-    for (const Vec3& p : part)
+    for (const Vec3& p : part.corners)
       if (is_covered(part, faces_.nearest(p, NearestFace::kNone, looked_at_).face)) return true;
     constexpr double kLarge = 16;  // distances
-    const Way longest = longest_way(part);
-    const bool is_large = norm(longest.to - longest.from) > kLarge * distance_;
+    const Way longest = longest_way(part.corners);
+    const bool is_large = norm(longest.to - longest.from) > kLarge * part.within;
     if (!is_large || !take_away(part, found.face)) halve(part, longest);
     return true;
   }
 
   /// The distance from a face is a convex function.
-  bool is_covered(const Polygon& part, std::uint32_t face) const {
-    return std::ranges::all_of(part, [&](const Vec3& p) { return faces_.distance(p, face) <= distance_; });
+  bool is_covered(const Part& part, std::uint32_t face) const {
+    return std::ranges::all_of(part.corners, [&](const Vec3& p) { return faces_.distance(p, face) <= part.within; });
   }
 
   /// What lies beyond the edges of the face is left, if what lies over it is covered.
-  bool take_away(const Polygon& part, std::uint32_t number) {
+  bool take_away(const Part& part, std::uint32_t number) {
     const Triangle face = mesh_.triangle(FaceId{number});
     const Vec3 normal = cross(face.b - face.a, face.c - face.a);
     const std::array corners{face.a, face.b, face.c};
-    std::vector<Polygon> beyond;
-    Polygon over = part;
-    for (std::size_t k = 0; k < 3 && over.size() > 2; ++k) {
-      Sides sides = cut(over, corners[k], cross(corners[(k + 1) % 3] - corners[k], normal));
-      over = std::move(sides.behind);
-      if (sides.front.size() > 2) beyond.push_back(std::move(sides.front));
+    std::vector<Part> beyond;
+    Part over = part;
+    for (std::size_t k = 0; k < 3 && over.corners.size() > 2; ++k) {
+      Sides sides = cut(over.corners, corners[k], cross(corners[(k + 1) % 3] - corners[k], normal));
+      over = {std::move(sides.behind), over.within - per_cut_};
+      if (sides.front.size() > 2) beyond.push_back({std::move(sides.front), over.within});
     }
-    if (over.size() < 3 || beyond.empty() || !is_covered(over, number)) return false;
+    if (over.corners.size() < 3 || beyond.empty() || !is_covered(over, number)) return false;
     open_.insert(open_.end(), beyond.begin(), beyond.end());
     return true;
   }
 
   /// Across its longest way from corner to corner.
-  void halve(const Polygon& part, const Way& longest) {
-    Sides sides = cut(part, (longest.from + longest.to) * 0.5, longest.to - longest.from);
-    open_.push_back(std::move(sides.front)), open_.push_back(std::move(sides.behind));
+  void halve(const Part& part, const Way& longest) {
+    Sides sides = cut(part.corners, (longest.from + longest.to) * 0.5, longest.to - longest.from);
+    const double within = part.within - per_cut_;
+    open_.push_back({std::move(sides.front), within}), open_.push_back({std::move(sides.behind), within});
   }
 
   const NearestFace& faces_;
   const TriangleMesh& mesh_;
-  const double distance_;
-  std::vector<Polygon> open_;
+  const double per_cut_;
+  std::vector<Part> open_;
   std::size_t looked_at_ = 0;
 };
 
@@ -140,6 +147,8 @@ std::size_t count_far(const TriangleMesh& hull, const TriangleMesh& mesh, const 
                       const Progress& progress) {
   const double largest = std::max(verify::largest_coordinate(hull), verify::largest_coordinate(mesh));
   const double unit = verify::usable_unit(largest), rounding = verify::rounding_of_distances(largest * unit);
+  // A crossing p + (q - p) f is off by 5 eps of the largest coordinate in each of its own.
+  const double per_cut = 9 * 0x1p-53 * largest * unit;
   const TriangleMesh to = verify::scaled(hull, unit), from = verify::scaled(mesh, unit);
   const NearestFace faces(to);
   ProgressMeter meter(progress, "verify");
@@ -147,7 +156,7 @@ std::size_t count_far(const TriangleMesh& hull, const TriangleMesh& mesh, const 
   oneapi::tbb::parallel_for(std::size_t{0}, mesh.face_count(), [&](std::size_t i) {
     const FaceId f{static_cast<std::uint32_t>(i)};
     const bool is_asked = tolerances[f] > 0 && tolerances[f] < std::numeric_limits<double>::infinity();
-    if (is_asked && !WithinSearch(faces, to, tolerances[f] * unit - rounding).holds(from.triangle(f))) ++far;
+    if (is_asked && !WithinSearch(faces, to, per_cut).holds(from.triangle(f), tolerances[f] * unit - rounding)) ++far;
     meter.at(++done, mesh.face_count());
   });
   return far;
