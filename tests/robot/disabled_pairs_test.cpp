@@ -5,7 +5,7 @@
 #include "robot/report/report.h"
 #include "robot_testing.h"
 
-namespace prohull::robot {
+namespace prohull::robot::of_disabled_pairs {
 namespace {
 
 /// Cubes of side 1, each of which slides out of the one before; they are 3 apart at rest, and the visual ones are
@@ -152,4 +152,4 @@ TEST(DisabledPairs, AreInReports) {
 }
 
 }  // namespace
-}  // namespace prohull::robot
+}  // namespace prohull::robot::of_disabled_pairs

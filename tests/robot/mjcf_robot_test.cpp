@@ -10,7 +10,7 @@
 #include "robot/motion/mujoco_files.h"
 #include "robot_testing.h"
 
-namespace prohull::robot {
+namespace prohull::robot::of_mjcf_robot {
 namespace {
 
 RobotFile urdf_of(const std::string& inside) {
@@ -170,4 +170,4 @@ TEST(MujocoFiles, HoldTheMeshesAsMujocoReadsThem) {
 }
 
 }  // namespace
-}  // namespace prohull::robot
+}  // namespace prohull::robot::of_mjcf_robot

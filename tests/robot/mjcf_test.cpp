@@ -11,7 +11,7 @@
 #include "robot/transform.h"
 #include "robot_testing.h"
 
-namespace prohull::robot {
+namespace prohull::robot::of_mjcf {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -656,4 +656,4 @@ TEST(MjcfWithCollisions, RefusesHullsThatMujocoCannotRead) {
 }
 
 }  // namespace
-}  // namespace prohull::robot
+}  // namespace prohull::robot::of_mjcf

@@ -23,7 +23,7 @@
 #include "robot_testing.h"
 #include "sample_arm.h"
 
-namespace prohull::robot {
+namespace prohull::robot::of_pair_proof {
 namespace {
 
 constexpr double kEver = std::numeric_limits<double>::infinity();
@@ -552,4 +552,4 @@ TEST(AddProofs, TakesPrimitivesThatAreKeptAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace prohull::robot
+}  // namespace prohull::robot::of_pair_proof

@@ -14,7 +14,7 @@
 #include "robot_testing.h"
 #include "sample_arm.h"
 
-namespace prohull::robot {
+namespace prohull::robot::of_path_proof {
 namespace {
 
 constexpr Vec3 kAlongX{1, 0, 0}, kAlongZ{0, 0, 1};
@@ -667,4 +667,4 @@ TEST(JointPath, TellsPositionsBeyondLimitsBetweenRows) {
 }
 
 }  // namespace
-}  // namespace prohull::robot
+}  // namespace prohull::robot::of_path_proof

@@ -9,7 +9,7 @@
 #include "robot/transform.h"
 #include "robot_testing.h"
 
-namespace prohull::robot {
+namespace prohull::robot::of_piece_files {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -157,4 +157,4 @@ TEST(PieceFiles, AreReadByUrdfdom) {
 }
 
 }  // namespace
-}  // namespace prohull::robot
+}  // namespace prohull::robot::of_piece_files

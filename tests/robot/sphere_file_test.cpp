@@ -11,7 +11,7 @@
 #include "robot/motion/planner_files.h"
 #include "robot_of_joints.h"
 
-namespace prohull::robot {
+namespace prohull::robot::of_sphere_file {
 namespace {
 
 std::string refusal(const std::string& text) {
@@ -184,4 +184,4 @@ TEST(PlannerFiles, OfXrdfHaveTheSameSpheresAndPairs) {
 }
 
 }  // namespace
-}  // namespace prohull::robot
+}  // namespace prohull::robot::of_sphere_file

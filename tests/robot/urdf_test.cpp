@@ -8,7 +8,7 @@
 #include "effort.h"
 #include "robot/robot_testing.h"
 
-namespace prohull::robot {
+namespace prohull::robot::of_urdf {
 namespace {
 
 namespace fs = std::filesystem;
@@ -560,4 +560,4 @@ TEST(WriteUrdf, HoldsForDamagedFiles) {
 }
 
 }  // namespace
-}  // namespace prohull::robot
+}  // namespace prohull::robot::of_urdf

@@ -5,7 +5,7 @@
 #include "prohull/error.h"
 #include "robot_testing.h"
 
-namespace prohull::robot {
+namespace prohull::robot::of_xml {
 namespace {
 
 std::string message_of(const std::string& text) {
@@ -74,4 +74,4 @@ TEST(WithEdits, KeepsAllOtherBytes) {
 }
 
 }  // namespace
-}  // namespace prohull::robot
+}  // namespace prohull::robot::of_xml
