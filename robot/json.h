@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "prohull/detail/shapes.h"
@@ -17,6 +18,14 @@ inline void to_json(nlohmann::json& json, const Ball& ball) {
 
 inline void to_json(nlohmann::json& json, const Offender& o) {
   json = {{"face", index(o.face)}, {"point", o.point}, {"distance", o.distance}};
+}
+
+/// facts(x) of each x, as a list.
+template <class Range, class Facts>
+nlohmann::json json_list(const Range& range, Facts facts) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const auto& each : range) list.push_back(std::invoke(facts, each));
+  return list;
 }
 
 /// Throws InputError(Malformed) with `file`.

@@ -51,6 +51,12 @@ TriangleMesh finite_triangles(TriangleMesh mesh) {
   return mesh;
 }
 
+bool keeps_float32(const TriangleMesh& mesh) {
+  const auto is_kept = [](double x) { return double(float(x)) == x; };
+  return std::ranges::all_of(mesh.positions,
+                             [&](const Vec3& p) { return is_kept(p.x) && is_kept(p.y) && is_kept(p.z); });
+}
+
 TriangleMesh in_frame(TriangleMesh mesh, const Pose& origin, const Frame& frame) {
   if (frame.in_link == origin) return mesh;
   return placed(origin, std::move(mesh));

@@ -39,6 +39,9 @@ TriangleMesh mesh_triangles(const MeshFile& mesh);
 /// Without the faces that have a corner which is not finite. Corners that are not are 0.
 TriangleMesh finite_triangles(TriangleMesh mesh);
 
+/// Whether float32 holds all coordinates.
+bool keeps_float32(const TriangleMesh& mesh);
+
 /// All shapes that are meshes or primitives, in `frame`. Curved forms as meshes around them. OtherForm is left out.
 TriangleMesh link_triangles(std::span<const Shape> shapes, const Frame& frame);
 

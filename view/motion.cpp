@@ -42,11 +42,11 @@ ShownMotion shown_motion(const robot::JointPath& path, const robot::PathProof& p
 }
 
 json motion_facts(const ShownMotion& motion) {
-  json bounds = json::array();
-  for (const ShownMotion::Bound& bound : motion.bounds)
-    bounds.push_back({bound.begin, bound.end, bound.distance, bound.pair});
+  const auto facts_of = [](const ShownMotion::Bound& bound) -> json {
+    return {bound.begin, bound.end, bound.distance, bound.pair};
+  };
   return {{"times", motion.times},     {"positions", motion.positions}, {"in_seconds", motion.in_seconds},
-          {"verdict", motion.verdict}, {"is_good", motion.is_good},     {"bounds", bounds}};
+          {"verdict", motion.verdict}, {"is_good", motion.is_good},     {"bounds", json_list(motion.bounds, facts_of)}};
 }
 
 }  // namespace prohull::view

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 #include <utility>
 
+#include "prohull/detail/disjoint_sets.h"
 #include "robot/transform.h"
 
 namespace prohull::robot {
@@ -38,23 +38,21 @@ class Forest {
         unjoined_(unjoined),
         notes_(notes),
         links_(robot.links.size()),
-        set_(links_),
+        trees_(links_),
         edges_of_(links_),
         reached_(links_),
         is_child_(links_),
-        new_index_(listed.size(), kNone) {
-    std::iota(set_.begin(), set_.end(), std::size_t{0});
-  }
+        new_index_(listed.size(), kNone) {}
 
   void build() {
     for (const Edge& edge : edges())
       if (edge.parent == kWorld)
         to_world_.push_back(edge);
-      else if (unite(edge.parent, edge.child))
+      else if (trees_.find(edge.parent) != trees_.find(edge.child))
         keep(edge);
       else
         leave_out(edge);
-    const bool needs_world = trees() > 1 || moves_in_world();
+    const bool needs_world = links_ - kept_.size() > 1 || moves_in_world();  // each edge joins two trees
     if (needs_world) robot_.links.push_back({"world", {}, {}, 0});
     for (const Edge& edge : to_world_) grow_from_world(edge, needs_world);
     for (const bool children : {false, true})
@@ -81,25 +79,11 @@ class Forest {
     });
   }
 
-  std::size_t tree_of(std::size_t link) {
-    while (set_[link] != link) link = set_[link] = set_[set_[link]];
-    return link;
-  }
-  bool unite(std::size_t a, std::size_t b) {
-    const std::size_t to = tree_of(a), from = tree_of(b);
-    set_[from] = to;
-    return to != from;
-  }
-  std::size_t trees() {
-    std::size_t count = 0;
-    for (std::size_t link = 0; link < links_; ++link) count += tree_of(link) == link;
-    return count;
-  }
-
   void keep(const Edge& edge) {
     edges_of_[edge.parent].push_back(kept_.size());
     edges_of_[edge.child].push_back(kept_.size());
     is_child_[edge.child] = true;
+    trees_.join(edge.parent, edge.child);
     kept_.push_back(edge);
   }
   void leave_out(const Edge& edge) {
@@ -170,7 +154,7 @@ class Forest {
   const JointType unjoined_;
   std::vector<std::string>& notes_;
   const std::size_t links_;  // the world comes after them
-  std::vector<std::size_t> set_;
+  DisjointSets trees_;
   std::vector<Edge> kept_, to_world_;
   std::vector<std::vector<std::size_t>> edges_of_;  // of each link, in kept_
   std::vector<bool> reached_, is_child_;

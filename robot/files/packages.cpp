@@ -127,13 +127,6 @@ fs::path package_around(const fs::path& lowest) {
   }
 }
 
-/// Whether a file is in a folder, wherever symbolic links lead.
-bool is_in(const fs::path& file, const fs::path& folder) {
-  std::error_code no_folder, no_file;
-  const fs::path root = fs::weakly_canonical(folder, no_folder), place = fs::weakly_canonical(file, no_file);
-  return !no_folder && !no_file && std::ranges::mismatch(root, place).in1 == root.end();
-}
-
 /// The file that a path names as it is written, or with its %20 decoded.
 std::optional<fs::path> file_at(const fs::path& folder, std::string_view path) {
   for (const fs::path& candidate : {fs::path(path), fs::path(without_percents(path))})
@@ -179,6 +172,12 @@ std::optional<std::string_view> path_of(std::string_view uri, std::string_view s
 }
 
 }  // namespace
+
+bool is_in(const fs::path& file, const fs::path& folder) {
+  std::error_code no_folder, no_file;
+  const fs::path root = fs::weakly_canonical(folder, no_folder), place = fs::weakly_canonical(file, no_file);
+  return !no_folder && !no_file && std::ranges::mismatch(root, place).in1 == root.end();
+}
 
 std::string_view package_of(std::string_view uri) {
   constexpr std::string_view kScheme = "package://";

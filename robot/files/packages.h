@@ -15,6 +15,9 @@ namespace prohull::robot {
 /// "arm" of "package://arm/link.stl"; "" of what is no such URI.
 std::string_view package_of(std::string_view uri);
 
+/// Whether a file is in a folder, wherever symbolic links lead.
+bool is_in(const std::filesystem::path& file, const std::filesystem::path& folder);
+
 class Packages {
  public:
   /// `robot` is the path of the robot's file.

@@ -53,25 +53,19 @@ std::string expanded_by_xacro(const std::filesystem::path& file, std::chrono::se
   using End = ProgramResult::End;
   const std::string argument = file.string().starts_with('-') ? "./" + file.string() : file.string();
   ProgramResult result = run_program("xacro", {argument}, "", {time, kMostOutput, kMostOutput}, {});
-  switch (result.end) {
-    case End::NotStarted:
-      if (result.number == ENOENT) refuse_xacro(file);
-      refuse(file, fmt::format("the program xacro could not be started: {}", std::strerror(result.number)));
-    case End::TimedOut:
-      refuse(file, fmt::format("xacro was stopped after {} s; expand the file by hand: xacro {} > robot.urdf",
-                               time.count(), file.string()));
-    case End::TooMuchOutput:
-      refuse(file, "xacro was stopped: its output is too large for a robot");
-    case End::Exited:
-    case End::Signalled:
-      if (result.number != 0)
-        refuse(file, fmt::format("xacro failed; if the file needs arguments, expand it by hand: xacro {} NAME:=VALUE > "
-                                 "robot.urdf. xacro says: {}",
-                                 file.string(), trimmed(result.errors)));
-      break;
-    case End::Unknown:
-      break;
-  }
+  const bool was_started = result.end != End::NotStarted,
+             has_ended = result.end == End::Exited || result.end == End::Signalled;
+  if (!was_started && result.number == ENOENT) refuse_xacro(file);
+  if (!was_started)
+    refuse(file, fmt::format("the program xacro could not be started: {}", std::strerror(result.number)));
+  if (result.end == End::TimedOut)
+    refuse(file, fmt::format("xacro was stopped after {} s; expand the file by hand: xacro {} > robot.urdf",
+                             time.count(), file.string()));
+  if (result.end == End::TooMuchOutput) refuse(file, "xacro was stopped: its output is too large for a robot");
+  if (has_ended && result.number != 0)
+    refuse(file, fmt::format("xacro failed; if the file needs arguments, expand it by hand: xacro {} NAME:=VALUE > "
+                             "robot.urdf. xacro says: {}",
+                             file.string(), trimmed(result.errors)));
   return std::move(result.output);
 }
 

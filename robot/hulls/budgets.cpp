@@ -129,15 +129,9 @@ std::string in_millimetres(double length) { return fmt::format("{:.6g}mm", lengt
 
 /// "faces: [500]", or "pieces: 8, vertices: 64"
 std::string size_of(const Budget& budget) {
-  switch (budget.collision) {
-    case Collision::Hull:
-      break;
-    case Collision::Convex:
-      return fmt::format("pieces: {}, vertices: {}", budget.pieces, budget.vertices);
-    case Collision::Spheres:
-      return fmt::format("spheres: {}", budget.spheres);
-  }
-  return fmt::format("faces: [{}]", fmt::join(budget.faces, ", "));
+  if (budget.collision == Collision::Hull) return fmt::format("faces: [{}]", fmt::join(budget.faces, ", "));
+  if (budget.collision == Collision::Spheres) return fmt::format("spheres: {}", budget.spheres);
+  return fmt::format("pieces: {}, vertices: {}", budget.pieces, budget.vertices);
 }
 
 /// "{faces: [500], gap: 5mm}": what counts, and is not so anyhow.

@@ -77,12 +77,6 @@ void judge_balls(LinkHull& hull, const JudgedGeometry& geometry, const Progress&
   measure_reaches(hull, hull.balls, geometry, go_on);
 }
 
-bool keeps_float32(const TriangleMesh& mesh) {
-  return std::ranges::all_of(mesh.positions, [](const Vec3& p) {
-    return double(float(p.x)) == p.x && double(float(p.y)) == p.y && double(float(p.z)) == p.z;
-  });
-}
-
 /// Whether a hull is of the kind and of the size that the budget asks for, with float32 coordinates.
 bool is_as_asked(const LinkHull& hull, const Budget& budget) {
   switch (budget.collision) {

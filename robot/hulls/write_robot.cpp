@@ -21,15 +21,6 @@ namespace {
 
 using std::filesystem::path;
 
-void write_text(const path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out)
-    throw InputError(Defect::CannotWrite,
-                     fmt::format("{}: cannot write: {}", file.string(), std::generic_category().message(errno)));
-}
-
 [[noreturn]] void fail_to_write(const path& file) {
   throw InputError(
       Defect::CannotWrite,
@@ -182,6 +173,15 @@ class RobotSet {
 };
 
 }  // namespace
+
+void write_text(const path& file, std::string_view text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out)
+    throw InputError(Defect::CannotWrite,
+                     fmt::format("{}: cannot write: {}", file.string(), std::generic_category().message(errno)));
+}
 
 OutputFile text_file(path name, std::string text) {
   return {std::move(name), [text = std::move(text)](const path& target) { write_text(target, text); }};

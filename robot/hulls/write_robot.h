@@ -50,6 +50,9 @@ inline constexpr std::size_t kMostMujocoStlFaces = 200'000;
 /// "arm" of arm.urdf and of arm.urdf.xacro: what the names of its files begin with.
 std::string robot_stem(const RobotFile& file);
 
+/// The whole content of a file. Throws InputError(CannotWrite).
+void write_text(const std::filesystem::path& file, std::string_view text);
+
 /// Throws InputError(CannotWrite) when it is written, if that fails.
 OutputFile text_file(std::filesystem::path name, std::string text);
 

@@ -14,10 +14,10 @@
 namespace prohull::robot {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-double below(double number) { return std::nextafter(number, -kInfinity); }
-double above(double number) { return std::nextafter(number, kInfinity); }
+double below(double number) { return std::nextafter(number, -kUnlimited); }
+double above(double number) { return std::nextafter(number, kUnlimited); }
 
 /// All positions of the joint that follows while the one that is followed is in the range, rounded outwards.
 JointRange following_range(const JointRange& range, const Mimic& mimic) {
@@ -33,7 +33,7 @@ JointRange following_range(const JointRange& range, const Mimic& mimic) {
 double JointRange::middle() const { return std::midpoint(lower, upper); }
 
 JointRange own_limits(const Joint& joint) {
-  if (joint.type == JointType::Continuous) return {-kInfinity, kInfinity};
+  if (joint.type == JointType::Continuous) return {-kUnlimited, kUnlimited};
   return {joint.lower, joint.upper};
 }
 
@@ -46,8 +46,8 @@ JointRange one_turn(const JointRange& range) {
 
 // prohull_check_motion rounds likewise.
 JointRange followed_range(const JointRange& range, const Mimic& mimic) {
-  if (mimic.multiplier == 0 && range.contains(mimic.offset)) return {-kInfinity, kInfinity};
-  if (mimic.multiplier == 0 || range.is_empty()) return {kInfinity, -kInfinity};
+  if (mimic.multiplier == 0 && range.contains(mimic.offset)) return {-kUnlimited, kUnlimited};
+  if (mimic.multiplier == 0 || range.is_empty()) return {kUnlimited, -kUnlimited};
   double lower = below(range.lower - mimic.offset) / mimic.multiplier;
   double upper = above(range.upper - mimic.offset) / mimic.multiplier;
   if (mimic.multiplier < 0) std::swap(lower, upper);

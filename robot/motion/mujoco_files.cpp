@@ -46,12 +46,7 @@ bool is_tiny(const TriangleMesh& mesh) {
 }
 
 /// Whether MuJoCo reads an STL file of the mesh, and that keeps its coordinates.
-bool fits_stl(const TriangleMesh& mesh) {
-  const auto is_float = [](double x) { return double(float(x)) == x; };
-  return mesh.face_count() <= kMostMujocoStlFaces && std::ranges::all_of(mesh.positions, [&](const Vec3& p) {
-           return is_float(p.x) && is_float(p.y) && is_float(p.z);
-         });
-}
+bool fits_stl(const TriangleMesh& mesh) { return mesh.face_count() <= kMostMujocoStlFaces && keeps_float32(mesh); }
 
 /// Files of the meshes that a robot names, other than its hulls.
 class MujocoMeshes {

@@ -30,11 +30,9 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); 
 Json number(const std::optional<double>& value) { return value ? number(*value) : Json(); }
 Json point(const Vec3& p) { return {number(p.x), number(p.y), number(p.z)}; }
 
-Json texts(const std::vector<std::string>& sentences) {
-  Json list = Json::array();
-  for (const std::string& sentence : sentences) list.push_back(clean_text(sentence));
-  return list;
-}
+Json texts(const std::vector<std::string>& sentences) { return json_list(sentences, clean_text); }
+
+std::string file_name(const std::filesystem::path& file) { return clean_text(file.generic_string()); }
 
 Json distance(const DistanceBounds& bounds) {
   return {{"at_least", number(bounds.lower)},
@@ -43,11 +41,9 @@ Json distance(const DistanceBounds& bounds) {
 }
 
 Json facts_of(const LinkCertificate& certificate) {
-  Json hull = Json::array();
-  for (const auto& file : certificate.hull) hull.push_back(clean_text(file.generic_string()));
-  return {{"file", clean_text(certificate.file.generic_string())},
-          {"hull", hull},
-          {"original", clean_text(certificate.original.generic_string())},
+  return {{"file", file_name(certificate.file)},
+          {"hull", json_list(certificate.hull, file_name)},
+          {"original", file_name(certificate.original)},
           {"original_is_of_robot", certificate.is_of_robot},
           {"claims", texts(certificate.claims)}};
 }
@@ -81,8 +77,7 @@ void add_hulls(const LinkHulls& link, std::span<const LinkCertificate> certifica
   facts["repairs"] = texts(link.repairs);
   facts["seconds"] = number(link.seconds);
   facts["from_cache"] = link.from_cache;
-  facts["hulls"] = Json::array();
-  for (const LinkHull& hull : link.hulls) facts["hulls"].push_back(facts_of(hull, link));
+  facts["hulls"] = json_list(link.hulls, [&](const LinkHull& hull) { return facts_of(hull, link); });
   for (const LinkCertificate& certificate : certificates)
     if (certificate.link == link.link) facts["hulls"][certificate.set]["certificate"] = facts_of(certificate);
 }
@@ -110,10 +105,9 @@ Json facts_of(const LinkCheck& check, double allow) {
 }
 
 Json facts_of(const std::vector<HashedFile>& files) {
-  Json list = Json::array();
-  for (const HashedFile& file : files)
-    list.push_back({{"file", clean_text(file.path.generic_string())}, {"xxh128", file.hash}});
-  return list;
+  return json_list(files, [](const HashedFile& file) -> Json {
+    return {{"file", file_name(file.path)}, {"xxh128", file.hash}};
+  });
 }
 
 Json joints_of(const Robot& robot) {
@@ -177,12 +171,6 @@ Json facts_of(const DisabledCheck& check, const Robot& robot) {
           {"visual", facts_of(check.visual, robot)}};
 }
 
-Json disabled_facts(const ReportInput& input) {
-  Json rows = Json::array();
-  for (const DisabledCheck& check : input.disabled) rows.push_back(facts_of(check, input.file.robot));
-  return rows;
-}
-
 Json facts_of(const MotionPair& pair, const Robot& robot) {
   return {{"links", {clean_text(robot.links[pair.a].name), clean_text(robot.links[pair.b].name)}},
           {"kind", name_of(pair.kind)},
@@ -197,16 +185,13 @@ Json facts_of(const MotionPair& pair, const Robot& robot) {
 
 Json certificate_facts(const ReportInput& input) {
   if (input.motion_certificate.file.empty()) return {};
-  return {{"file", clean_text(input.motion_certificate.file.generic_string())},
-          {"pairs", input.motion_certificate.pairs}};
+  return {{"file", file_name(input.motion_certificate.file)}, {"pairs", input.motion_certificate.pairs}};
 }
 
 Json facts_of(const MotionResult& motion, const Robot& robot) {
-  Json pairs = Json::array();
-  for (const MotionPair& pair : motion.pairs) pairs.push_back(facts_of(pair, robot));
   return {{"configurations", motion.configurations},
           {"seed", motion.seed},
-          {"pairs", pairs},
+          {"pairs", json_list(motion.pairs, [&](const MotionPair& pair) { return facts_of(pair, robot); })},
           {"false_hull", motion.false_hull()},
           {"false_convex", motion.false_convex()},
           {"missed", motion.missed()},
@@ -360,27 +345,27 @@ void sign(ReportInput& input, std::initializer_list<std::filesystem::path> other
 }
 
 Json report_json(const ReportInput& input) {
-  Json findings = Json::array();
-  for (const Finding& finding : findings_of(input)) findings.push_back(finding.text);
+  const Robot& robot = input.file.robot;
   std::vector<std::string> notes = input.file.notes;
   notes.insert(notes.end(), input.srdf_notes.begin(), input.srdf_notes.end());
-  return {{"robot", clean_text(input.file.robot.name)},
-          {"file", clean_text(input.file.path.generic_string())},
-          {"format", prohull::name_of(robot_format_names(), input.file.format)},
-          {"version", clean_text(input.version)},
-          {"from", input.from == Geometry::Visual ? "visual" : "collision"},
-          {"allow", number(input.allow)},
-          {"seconds", number(input.seconds)},
-          {"date", input.date},
-          {"sources", facts_of(input.sources)},
-          {"joints", joints_of(input.file.robot)},
-          {"findings", findings},
-          {"notes", texts(notes)},
-          {"links", links_of(input)},
-          {"motion", input.motion ? facts_of(*input.motion, input.file.robot) : Json()},
-          {"motion_certificate", certificate_facts(input)},
-          {"disabled_pairs", disabled_facts(input)},
-          {"totals", facts_of(totals_of(input))}};
+  return {
+      {"robot", clean_text(robot.name)},
+      {"file", file_name(input.file.path)},
+      {"format", prohull::name_of(robot_format_names(), input.file.format)},
+      {"version", clean_text(input.version)},
+      {"from", input.from == Geometry::Visual ? "visual" : "collision"},
+      {"allow", number(input.allow)},
+      {"seconds", number(input.seconds)},
+      {"date", input.date},
+      {"sources", facts_of(input.sources)},
+      {"joints", joints_of(robot)},
+      {"findings", json_list(findings_of(input), &Finding::text)},
+      {"notes", texts(notes)},
+      {"links", links_of(input)},
+      {"motion", input.motion ? facts_of(*input.motion, robot) : Json()},
+      {"motion_certificate", certificate_facts(input)},
+      {"disabled_pairs", json_list(input.disabled, [&](const DisabledCheck& check) { return facts_of(check, robot); })},
+      {"totals", facts_of(totals_of(input))}};
 }
 
 std::string report_junit(const ReportInput& input) {

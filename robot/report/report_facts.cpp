@@ -14,15 +14,8 @@ namespace {
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
 
 double rounded_to(double value, int digits, Rounded rounded) {
-  switch (rounded) {
-    case Rounded::Nearest:
-      break;
-    case Rounded::Up:
-      return rounded_up(value, digits);
-    case Rounded::Down:
-      return rounded_down(value, digits);
-  }
-  return nearest_of_digits(value, digits);
+  if (rounded == Rounded::Nearest) return nearest_of_digits(value, digits);
+  return rounded == Rounded::Up ? rounded_up(value, digits) : rounded_down(value, digits);
 }
 
 struct Unit {
