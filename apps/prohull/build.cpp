@@ -44,8 +44,7 @@ std::string check_options(const BuildOptions& options) {
     refuse(
         "--self-intersections allowed is for outer hulls without --tight; all others refuse collapses that make them "
         "intersect themselves");
-  check_certified_original(options.certificate, options.in);
-  check_certified_output(options.certificate, suffix);
+  check_certified(options.certificate, options.in, suffix);
   require_faces_in_name(options, options.certificate);
   std::vector<std::filesystem::path> files{options.hierarchy, options.report};
   for (const std::size_t faces : options.faces)

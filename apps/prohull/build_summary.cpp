@@ -162,21 +162,16 @@ std::vector<std::string> notes_of(const BuildOutcome& outcome) {
   return notes;
 }
 
-template <class Value>
-double total(const std::vector<Written>& written, Value value) {
-  double sum = 0;
-  for (const Written& w : written) sum += value(w);
-  return sum;
-}
+/// Of all hulls.
+struct Seconds {
+  double build = 0, write = 0, verify = 0;
+};
 
-double build_seconds(const BuildOutcome& outcome) {
-  return total(outcome.written, [](const Written& w) { return w.hull.build_seconds; });
-}
-double verify_seconds(const BuildOutcome& outcome) {
-  return total(outcome.written, [](const Written& w) { return w.hull.verify_seconds; });
-}
-double write_seconds(const BuildOutcome& outcome) {
-  return total(outcome.written, [](const Written& w) { return w.write_seconds; });
+Seconds seconds_of(const BuildOutcome& outcome) {
+  Seconds all;
+  for (const Written& w : outcome.written)
+    all.build += w.hull.build_seconds, all.write += w.write_seconds, all.verify += w.hull.verify_seconds;
+  return all;
 }
 
 /// What the ladder looked at before it chose: docs/repair.md.
@@ -203,9 +198,10 @@ void print_summary(const BuildOptions& options, const BuildOutcome& outcome) {
   print_input(options, outcome);
   if (outcome.written.size() == 1) say_all(outcome.written.front().hull.notes);
   for (const Written& written : outcome.written) print_hull(options, outcome, written);
+  const Seconds seconds = seconds_of(outcome);
   say("  read {:.2f} s, {}build {:.2f} s, write {:.2f} s, verify {:.2f} s\n", outcome.read_seconds,
       outcome.made.repair_seconds >= 0.005 ? fmt::format("repair {:.2f} s, ", outcome.made.repair_seconds) : "",
-      build_seconds(outcome), write_seconds(outcome), verify_seconds(outcome));
+      seconds.build, seconds.write, seconds.verify);
   print_search(outcome);
 }
 
@@ -228,8 +224,9 @@ nlohmann::json report_of(const BuildOptions& options, const BuildOutcome& outcom
   in["notes"] = notes_of(outcome);
   in["self_intersections"] = count_self_intersections(outcome.made.input.original);
   in["repaired_self_intersections"] = outcome.input_self_intersections;
-  nlohmann::json hulls = nlohmann::json::array();
-  for (const Written& written : outcome.written) hulls.push_back(hull_report(options, outcome, written));
+  const nlohmann::json hulls =
+      json_list(outcome.written, [&](const Written& written) { return hull_report(options, outcome, written); });
+  const Seconds seconds = seconds_of(outcome);
   return {{"input", in},
           {"hull", hulls.back()},
           {"hulls", hulls},
@@ -240,9 +237,9 @@ nlohmann::json report_of(const BuildOptions& options, const BuildOutcome& outcom
           {"seconds",
            {{"read", outcome.read_seconds},
             {"repair", outcome.made.repair_seconds},
-            {"build", build_seconds(outcome)},
-            {"write", write_seconds(outcome)},
-            {"verify", verify_seconds(outcome)}}},
+            {"build", seconds.build},
+            {"write", seconds.write},
+            {"verify", seconds.verify}}},
           {"options", options_report(options)}};
 }
 

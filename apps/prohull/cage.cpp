@@ -63,10 +63,9 @@ std::filesystem::path certificate_path(const CageRunOptions& options, std::strin
 }
 
 void check_certificate(const CageRunOptions& options, const std::string& suffix, const std::string& suffix_of_inner) {
-  check_certified_original(options.certificate, options.in);
-  check_certified_output(options.certificate, suffix);
+  check_certified(options.certificate, options.in, suffix);
   if (options.inner.empty() || options.certificate.empty()) return;
-  check_certified_output(options.certificate, suffix_of_inner);
+  check_certified(options.certificate, options.in, suffix_of_inner);
   if (options.certificate.string().find(kSideInName) == std::string::npos)
     refuse(fmt::format(
         "{}: each hull has a certificate; put {{side}} where outer and inner go, as in cage_{{side}}.phcert",

@@ -28,7 +28,8 @@ CLI::Option* add_certificate_option(CLI::App& command, std::filesystem::path& fi
                        what + " and of the original what is proven (docs/certificate.md)." + limits);
 }
 
-void check_certified_original(const std::filesystem::path& certificate, const std::filesystem::path& original) {
+void check_certified(const std::filesystem::path& certificate, const std::filesystem::path& original,
+                     const std::string& suffix, const std::vector<std::string>& checkable) {
   if (certificate.empty()) return;
   constexpr std::array<std::string_view, 4> kChecked{".stl", ".obj", ".ply", ".off"};
   if (is_standard_stream(original))
@@ -40,11 +41,7 @@ void check_certified_original(const std::filesystem::path& certificate, const st
         fmt::format("--certificate: {}: prohull_check reads .stl, .obj, .ply and .off files only; save the mesh as one "
                     "of these, and name that file as the original",
                     original.string()));
-}
-
-void check_certified_output(const std::filesystem::path& certificate, const std::string& suffix,
-                            const std::vector<std::string>& checkable) {
-  if (!certificate.empty() && std::ranges::find(checkable, suffix) == checkable.end())
+  if (std::ranges::find(checkable, suffix) == checkable.end())
     refuse(fmt::format("--certificate: prohull_check reads no {} files; write {}", suffix, alternatives(checkable)));
 }
 

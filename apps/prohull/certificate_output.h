@@ -16,12 +16,10 @@ CLI::Option* add_certificate_option(CLI::App& command, std::filesystem::path& fi
                                     const std::string& limits = "");
 
 /// Before any work, if there is to be a certificate: throws InputError(InvalidOption) for an original that
-/// prohull_check does not read.
-void check_certified_original(const std::filesystem::path& certificate, const std::filesystem::path& original);
-/// Before any work, if there is to be a certificate: throws InputError(InvalidOption) for an output whose name ends in
-/// `suffix`, if that is none of `checkable`.
-void check_certified_output(const std::filesystem::path& certificate, const std::string& suffix,
-                            const std::vector<std::string>& checkable = {".stl", ".obj", ".ply", ".off"});
+/// prohull_check does not read, and for an output whose name ends in `suffix`, if that is none of `checkable`.
+void check_certified(const std::filesystem::path& certificate, const std::filesystem::path& original,
+                     const std::string& suffix,
+                     const std::vector<std::string>& checkable = {".stl", ".obj", ".ply", ".off"});
 
 /// The mesh that was read from `path`, if there is to be a certificate; otherwise nothing.
 CertifiedOriginal certified_original(const std::filesystem::path& certificate, const TriangleMesh& mesh,

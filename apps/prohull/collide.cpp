@@ -21,10 +21,7 @@ struct CollideOptions {
   unsigned threads = 0;
 };
 
-const OutputKind& pair_outputs() {
-  static const OutputKind kind{"pairs of faces", {".npz", ".csv"}};
-  return kind;
-}
+const OutputKind kPairs{"pairs of faces", {".npz", ".csv"}};
 
 std::vector<Pose> poses_of(const CollideOptions& options) {
   if (!options.poses.empty())
@@ -133,6 +130,14 @@ nlohmann::json facts_of_body(const Body& body, const std::filesystem::path& path
           {"finest_level", name_of(finest_level_names(), body.finest_level)}};
 }
 
+nlohmann::json separation_facts(const Separation& s) {
+  nlohmann::json json{{"lower", s.lower}, {"upper", s.upper}};
+  if (s.collide()) return json;
+  json["face_a"] = index(s.face_a), json["point_a"] = s.point_a;
+  json["face_b"] = index(s.face_b), json["point_b"] = s.point_b;
+  return json;
+}
+
 nlohmann::json report_of(const CollideOptions& options, const Body& a, const Body& b, const Answers& answers,
                          double seconds) {
   std::vector<std::string> notes = a.notes.all();
@@ -146,20 +151,12 @@ nlohmann::json report_of(const CollideOptions& options, const Body& a, const Bod
                          {"collide", answers.collide},
                          {"seconds", seconds}};
   if (!answers.pairs.offsets.empty()) json["face_pairs"] = answers.pairs.pairs.size();
-  if (options.distance) {
-    nlohmann::json& all = json["distances"] = nlohmann::json::array();
-    for (const Separation& s : answers.separations) {
-      all.push_back({{"lower", s.lower}, {"upper", s.upper}});
-      if (s.collide()) continue;
-      all.back()["face_a"] = index(s.face_a), all.back()["point_a"] = s.point_a;
-      all.back()["face_b"] = index(s.face_b), all.back()["point_b"] = s.point_b;
-    }
-  }
+  if (options.distance) json["distances"] = json_list(answers.separations, separation_facts);
   return json;
 }
 
 int run_collide(const CollideOptions& options) {
-  const std::string suffix = options.out.empty() ? "" : output_suffix(options.out, pair_outputs(), options.out_format);
+  const std::string suffix = options.out.empty() ? "" : output_suffix(options.out, kPairs, options.out_format);
   check_files({options.a, options.b, options.poses}, {options.out, options.report});
   const Stopwatch reading;
   const std::vector<Pose> poses = poses_of(options);
@@ -205,7 +202,7 @@ void add_collide(CLI::App& app, Run& run) {
   CLI::Option* const out = add_value(
       command, "-o,--out", options.out, "PAIRS",
       "File for the pairs of faces that meet, .npz or .csv: pose, face_a, face_b. With - they go to standard output.");
-  add_out_format_option(command, options.out_format, pair_outputs());
+  add_out_format_option(command, options.out_format, kPairs);
   CLI::Option* const distance = command.add_flag("--distance", options.distance,
                                                  "Also find the least distance of each pose, with proven bounds.");
   command

@@ -9,10 +9,7 @@
 namespace prohull::cli {
 namespace {
 
-const OutputKind& inside_outputs() {
-  static const OutputKind kind{"the answers", {".npz", ".csv"}};
-  return kind;
-}
+const OutputKind kAnswers{"the answers", {".npz", ".csv"}};
 
 PointAnswers ask(const QueryIndex& index, const std::vector<Vec3>& points, const BatchOptions& batch) {
   const std::vector<bool> inside = contains(index, points, batch);
@@ -32,9 +29,9 @@ void add_contains(CLI::App& app, Run& run) {
       "once, so cavities are outside. A closed mesh that is inside out is turned. Of a mesh that is not closed, the "
       "solid is asked that `prohull repair` makes of "
       "it; one that repairs do not close is refused.",
-      [](const PointOptions& chosen) { return run_points(chosen, inside_outputs(), ask); });
+      [](const PointOptions& chosen) { return run_points(chosen, kAnswers, ask); });
   options.is_about_inside = options.closes = true;
-  add_point_options(command, options, inside_outputs());
+  add_point_options(command, options, kAnswers);
   add_examples(command,
                {"prohull contains horse.ply --random 1e6", "prohull contains part.stl --points p.npy -o in.npz",
                 "prohull contains part.stl --points - -o - --out-format csv <points.csv"});

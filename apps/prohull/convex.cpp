@@ -121,11 +121,11 @@ class PieceFiles {
 
   /// Returns the largest piece in the files; none if they do not hold the very bits of the pieces.
   std::optional<PieceSize> add_to(Outputs& outputs, const std::vector<ConvexPiece>& pieces) const {
-    if (is_one()) return add_one(outputs, pieces);
+    if (is_one()) return add_file(outputs, out_, pieces);
     PieceSize largest;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       if (!has_file(pieces[i])) continue;
-      const auto size = add_piece(outputs, path_of(i), pieces[i]);
+      const auto size = add_file(outputs, path_of(i), {&pieces[i], 1});
       if (!size) return std::nullopt;
       largest = {std::max(largest.vertices, size->vertices), std::max(largest.polygons, size->polygons)};
     }
@@ -169,8 +169,7 @@ class PieceFiles {
     if (!is_robot() && (options.cover.shape == PieceShape::Capsule || options.cover.shape == PieceShape::Ball))
       refuse(fmt::format("{}: mesh files hold no {}; write .urdf or .xml", output_name(out_),
                          options.cover.shape == PieceShape::Ball ? "spheres" : "capsules"));
-    check_certified_original(options.certificate, options.in);
-    check_certified_output(options.certificate, mesh_suffix());
+    check_certified(options.certificate, options.in, mesh_suffix());
     if (!options.certificate.empty() && is_robot() && options.cover.shape != PieceShape::Polytope)
       refuse("--certificate: prohull_check reads the mesh files of pieces only; leave --shape out");
     std::vector<path> files = written(std::vector<ConvexPiece>(options.cover.max_pieces));
@@ -181,23 +180,14 @@ class PieceFiles {
 
   bool has_file(const ConvexPiece& piece) const { return !is_one() && (!is_robot() || is_mesh(piece)); }
 
-  std::optional<PieceSize> add_one(Outputs& outputs, const std::vector<ConvexPiece>& pieces) const {
+  /// Returns the largest piece in the file, as add_to does.
+  std::optional<PieceSize> add_file(Outputs& outputs, const path& target, std::span<const ConvexPiece> pieces) const {
     std::vector<TriangleMesh> meshes;
     for (const ConvexPiece& piece : pieces) meshes.push_back(piece.mesh);
     std::optional<PieceSize> size;
-    outputs.add(out_, suffix_, [&](const path& file) {
-      write_meshes(file, meshes, std::span(names_).first(pieces.size()));
-      size = written_size(file, pieces);
-      return size.has_value();
-    });
-    return size;
-  }
-
-  std::optional<PieceSize> add_piece(Outputs& outputs, const path& target, const ConvexPiece& piece) const {
-    std::optional<PieceSize> size;
     outputs.add(target, mesh_suffix(), [&](const path& file) {
-      write_mesh(file, piece.mesh);
-      size = written_size(file, {&piece, 1});
+      is_one() ? write_meshes(file, meshes, std::span(names_).first(pieces.size())) : write_mesh(file, meshes.front());
+      size = written_size(file, pieces);
       return size.has_value();
     });
     return size;

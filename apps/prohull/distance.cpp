@@ -11,10 +11,7 @@
 namespace prohull::cli {
 namespace {
 
-const OutputKind& distance_outputs() {
-  static const OutputKind kind{"the distances", {".npz", ".csv"}};
-  return kind;
-}
+const OutputKind kDistances{"the distances", {".npz", ".csv"}};
 
 std::vector<ClosestPoint> distances_of(const QueryIndex& index, const std::vector<Vec3>& points,
                                        const BatchOptions& batch, bool is_signed) {
@@ -50,13 +47,13 @@ void add_distance(CLI::App& app, Run& run) {
       app, run, "distance",
       "Finds how far points are from a mesh, with proven bounds, and the closest point of the mesh.",
       [](const PointOptions& chosen) {
-        return run_points(chosen, distance_outputs(),
+        return run_points(chosen, kDistances,
                           [&](const QueryIndex& index, const std::vector<Vec3>& points, const BatchOptions& batch) {
                             return answers(distances_of(index, points, batch, chosen.is_about_inside));
                           });
       });
   options.bytes_per_point = 220;
-  add_point_options(command, options, distance_outputs());
+  add_point_options(command, options, kDistances);
   command.add_flag("--signed", options.is_about_inside,
                    "Make the distances of points that are inside negative. The mesh must be closed; what is inside out "
                    "is turned.");

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <limits>
 #include <string>
@@ -9,6 +10,7 @@
 #include "prohull/detail/rounded.h"
 #include "prohull/error.h"
 #include "robot/hulls/budgets.h"
+#include "robot/json.h"
 #include "robot/motion/kinematics.h"
 #include "robot/motion/motion.h"
 #include "robot/motion/motion_certificate.h"
@@ -244,17 +246,18 @@ nlohmann::json facts_of_path(const Decision& decision, std::size_t p) {
 }
 
 nlohmann::json report_of(const PathOptions& options, const Decision& decision, double seconds) {
-  nlohmann::json bodies = nlohmann::json::array(), paths = nlohmann::json::array(), left_out = nlohmann::json::array();
-  for (const PathBody& body : decision.made.bodies) bodies.push_back(body.name);
-  for (const auto& [a, b] : decision.left_out) left_out.push_back({decision.name(a), decision.name(b)});
+  nlohmann::json paths = nlohmann::json::array();
+  const auto names = [&](const BodyPair& pair) {
+    return std::array{decision.name(pair.first), decision.name(pair.second)};
+  };
   for (std::size_t p = 0; p < decision.paths.size(); ++p) paths.push_back(facts_of_path(decision, p));
   return {{"robot", decision.file.robot.name},
           {"file", decision.file.path.string()},
           {"geometry", name_of(geometry_names(), options.geometry)},
           {"gap", options.proof.gap},
-          {"bodies", bodies},
+          {"bodies", json_list(decision.made.bodies, &PathBody::name)},
           {"pairs", decision.pairs.size()},
-          {"left_out", left_out},
+          {"left_out", json_list(decision.left_out, names)},
           {"notes", decision.made.notes},
           {"paths", paths},
           {"seconds", seconds}};

@@ -10,7 +10,6 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <mutex>
@@ -22,6 +21,7 @@
 #include "prohull/detail/extension.h"
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
+#include "robot/hulls/write_robot.h"
 
 namespace prohull::cli {
 namespace {
@@ -199,7 +199,7 @@ bool Outputs::add(const path& target, const std::string& suffix, const std::func
 }
 
 void Outputs::add(const path& target, std::string_view bytes) {
-  add(target, target.extension().string(), [&](const path& file) { return write_bytes(file, bytes), true; });
+  add(target, target.extension().string(), [&](const path& file) { return robot::write_text(file, bytes), true; });
 }
 
 bool Outputs::add(const path& target, const std::string& suffix, const TriangleMesh& mesh) {
@@ -239,13 +239,6 @@ void Outputs::commit() {
 }
 
 bool has_any_output_appeared() { return g_any_has_appeared; }
-
-void write_bytes(const path& file, std::string_view bytes) {
-  std::ofstream out(file, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) fail_to_write(file);
-}
 
 bool holds_triangles_of(const path& file, const TriangleMesh& mesh) { return has_triangles_of(read_mesh(file), mesh); }
 

@@ -51,9 +51,6 @@ class Outputs {
   std::vector<std::filesystem::path> folders_;
 };
 
-/// The whole content of a file. Throws InputError(CannotWrite).
-void write_bytes(const std::filesystem::path& file, std::string_view bytes);
-
 /// Whether a mesh file has the triangles of `mesh`, bit for bit. STL does not keep how vertices are numbered.
 bool holds_triangles_of(const std::filesystem::path& file, const TriangleMesh& mesh);
 

@@ -25,10 +25,7 @@ struct QueryOptions {
   bool conservative = false;
 };
 
-const OutputKind& hit_outputs() {
-  static const OutputKind kind{"hits", {".npz", ".csv"}};
-  return kind;
-}
+const OutputKind kHits{"hits", {".npz", ".csv"}};
 
 // What differs between the kinds of queries.
 std::string_view noun(const std::vector<Segment>&) { return "segment"; }
@@ -64,7 +61,7 @@ struct Suffixes {
 
 Suffixes check_outputs(const QueryOptions& options) {
   Suffixes suffixes;
-  if (!options.out.empty()) suffixes.out = output_suffix(options.out, hit_outputs(), options.out_format);
+  if (!options.out.empty()) suffixes.out = output_suffix(options.out, kHits, options.out_format);
   suffixes.segments = options.random.suffix("segments");
   check_files({options.in, options.inner, options.segments, options.rays, options.triangles},
               {options.out, options.random.file, options.report});
@@ -255,7 +252,7 @@ void add_query(CLI::App& app, Run& run) {
   add_value(command, "-o,--out", options.out, "HITS",
             "File for the hits, .npz or .csv. With - they go to standard output. Without this option only the summary "
             "is printed.");
-  add_out_format_option(command, options.out_format, hit_outputs());
+  add_out_format_option(command, options.out_format, kHits);
   add_queries(command, options);
   add_engine_option(command, options.engine, all_engine_names());
   CLI::Option* const inner = add_value(command, "--inner", options.inner, "INNER.phull",

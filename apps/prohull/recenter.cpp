@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "outputs.h"
+#include "prohull/detail/solid_pieces.h"
 
 namespace prohull::cli {
 namespace {
@@ -15,12 +16,6 @@ namespace {
 double rounded(double x, double size) {
   const int digits = static_cast<int>(std::floor(std::log10(std::abs(x))) - std::floor(std::log10(size)));
   return std::strtod(fmt::format("{:.{}e}", x, std::clamp(digits, 0, 16)).c_str(), nullptr);
-}
-
-/// Knuth's rounding error of the difference is 0.
-bool is_exact_difference(double x, double y) {
-  const double difference = x - y, minus_y = difference - x;
-  return (x - (difference - minus_y)) - (y + minus_y) == 0;
 }
 
 }  // namespace
@@ -42,7 +37,7 @@ TriangleMesh minus(TriangleMesh mesh, const Vec3& offset) {
   for (const auto& corners : mesh.triangles)
     for (const VertexId v : corners)
       for (int axis = 0; axis < 3; ++axis)
-        if (const double x = mesh.positions[v][axis]; std::isfinite(x) && !is_exact_difference(x, offset[axis]))
+        if (const double x = mesh.positions[v][axis]; std::isfinite(x) && !is_exact_sum(x, -offset[axis]))
           refuse(
               fmt::format("--offset: {:.17g} - {:g} is rounded, so that the answer would be about another mesh; give "
                           "the offset that `prohull build --recenter` has told of this one",

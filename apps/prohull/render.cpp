@@ -14,6 +14,7 @@
 #include "render/pieces.h"
 #include "robot/files/robot_file.h"
 #include "robot/files/sphere_file.h"
+#include "robot/json.h"
 #include "robot/motion/bodies.h"
 
 namespace prohull::cli {
@@ -312,16 +313,12 @@ std::string face_counts(const std::vector<PanelPlan>& plans, const MeshTable& ta
   return text + (text == "1" ? " face" : " faces");
 }
 
-nlohmann::json facts_of(const std::vector<PanelPlan>& plans, const MeshTable& table) {
-  nlohmann::json panels = nlohmann::json::array();
-  for (const PanelPlan& plan : plans) {
-    nlohmann::json panel{{"faces", table.meshes()[plan.shown].face_count()}};
-    if (plan.inside) panel["faces_inside"] = table.meshes()[*plan.inside].face_count();
-    if (plan.segment) panel["crossings"] = {{"found", plan.segment->found}, {"missed", plan.segment->missed}};
-    if (plan.right) panel["faces_right"] = table.meshes()[*plan.right].face_count();
-    panels.push_back(panel);
-  }
-  return panels;
+nlohmann::json facts_of(const PanelPlan& plan, const MeshTable& table) {
+  nlohmann::json panel{{"faces", table.meshes()[plan.shown].face_count()}};
+  if (plan.inside) panel["faces_inside"] = table.meshes()[*plan.inside].face_count();
+  if (plan.segment) panel["crossings"] = {{"found", plan.segment->found}, {"missed", plan.segment->missed}};
+  if (plan.right) panel["faces_right"] = table.meshes()[*plan.right].face_count();
+  return panel;
 }
 
 render::Image drawn(const std::vector<render::Panel>& panels, const Size& size, const RenderOptions& options) {
@@ -353,12 +350,13 @@ int run_render(const RenderOptions& options) {
   const std::string png = options.palette ? render::encode_small_png(image) : render::encode_png(image);
   Outputs outputs;
   outputs.add(options.out, png);
-  outputs.add_report(options.report, {{"path", options.out.string()},
-                                      {"width", size.width},
-                                      {"height", size.height},
-                                      {"panels", facts_of(plans, table)},
-                                      {"bytes", png.size()},
-                                      {"seconds", watch.seconds()}});
+  outputs.add_report(options.report,
+                     {{"path", options.out.string()},
+                      {"width", size.width},
+                      {"height", size.height},
+                      {"panels", json_list(plans, [&](const PanelPlan& plan) { return facts_of(plan, table); })},
+                      {"bytes", png.size()},
+                      {"seconds", watch.seconds()}});
   outputs.commit();
   say("{}: {} x {}, {}, {:.1f} s\n", output_name(options.out), size.width, size.height, face_counts(plans, table),
       watch.seconds());

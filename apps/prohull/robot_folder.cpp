@@ -9,7 +9,9 @@
 
 #include "command.h"
 #include "prohull/error.h"
+#include "robot/files/packages.h"
 #include "robot/hulls/cache.h"
+#include "robot/hulls/write_robot.h"
 #include "robot/report/report_facts.h"
 
 namespace prohull::cli {
@@ -23,11 +25,7 @@ constexpr const char* kReport = "report.json";
 bool stays_within(const path& folder, const path& name) {
   const path normal = name.lexically_normal();
   if (normal.empty() || !normal.has_filename() || normal.is_absolute() || *normal.begin() == "..") return false;
-  std::error_code error;
-  const path root = std::filesystem::weakly_canonical(folder, error);
-  if (error) return false;
-  const path place = std::filesystem::weakly_canonical(folder / normal, error);
-  return !error && std::ranges::mismatch(root, place).in1 == root.end();
+  return robot::is_in(folder / normal, folder);
 }
 
 /// The report, if it is one that commit() may have written to this folder; otherwise null.
@@ -106,7 +104,7 @@ void RobotFolder::add(const path& name, const std::function<void(const path&)>& 
 }
 
 void RobotFolder::add(const path& name, const std::string& text) {
-  add(name, [&](const path& file) { write_bytes(file, text); });
+  add(name, [&](const path& file) { robot::write_text(file, text); });
 }
 
 void RobotFolder::commit(nlohmann::json report, const std::string& key, int exit_code) {

@@ -242,16 +242,9 @@ std::string described(std::span<const Shape> all) {
 
 /// "a hull of 500 faces"
 std::string cover_of(const Budget& budget) {
-  switch (budget.collision) {
-    case Collision::Hull:
-      break;
-    case Collision::Convex:
-      return fmt::format("up to {} of up to {} vertices", counted(budget.pieces, "convex piece"),
-                         grouped(budget.vertices));
-    case Collision::Spheres:
-      return fmt::format("up to {}", counted(budget.spheres, "sphere"));
-  }
-  return fmt::format("a hull of {} faces", fmt::join(budget.faces, " and "));
+  if (budget.collision == Collision::Hull) return fmt::format("a hull of {} faces", fmt::join(budget.faces, " and "));
+  if (budget.collision == Collision::Spheres) return fmt::format("up to {}", counted(budget.spheres, "sphere"));
+  return fmt::format("up to {} of up to {} vertices", counted(budget.pieces, "convex piece"), grouped(budget.vertices));
 }
 
 bool is_missing(const Shape& shape) { return shape.mesh() && shape.mesh()->path.empty(); }

@@ -8,6 +8,7 @@
 #include "prohull/error.h"
 #include "prohull/mesh_io.h"
 #include "robot/files/robot_file.h"
+#include "robot/hulls/write_robot.h"
 #include "robot/samples/sample_robots.h"
 
 namespace prohull::cli {
@@ -68,7 +69,7 @@ void require_new_folder(const std::filesystem::path& folder) {
 
 void write_robot(const std::filesystem::path& folder, const std::string& name, const robot::SampleRobot& robot) {
   std::filesystem::create_directory(folder);
-  write_bytes(folder / (name + ".urdf"), robot.urdf);
+  robot::write_text(folder / (name + ".urdf"), robot.urdf);
   for (const auto& [path, mesh] : robot.meshes) {
     stop_if_interrupted();
     std::filesystem::create_directories((folder / path).parent_path());

@@ -9,6 +9,7 @@
 #include "prohull/sphere_cover.h"
 #include "robot/files/piece_files.h"
 #include "robot/files/sphere_file.h"
+#include "robot/hulls/write_robot.h"
 #include "union_files.h"
 #include "verdict.h"
 
@@ -58,7 +59,7 @@ std::string text_of(const SpheresOptions& options, const std::string& suffix, co
 void add_spheres(Outputs& outputs, const SpheresOptions& options, const std::string& suffix,
                  const std::vector<Ball>& balls) {
   const bool holds = outputs.add(options.out, suffix, [&](const std::filesystem::path& file) {
-    write_bytes(file, text_of(options, suffix, balls));
+    robot::write_text(file, text_of(options, suffix, balls));
     return read_union({file}, {}, "").balls == balls;
   });
   if (!holds)
@@ -69,8 +70,7 @@ void add_spheres(Outputs& outputs, const SpheresOptions& options, const std::str
 /// Before any work: throws InputError for a name that the format cannot hold.
 std::string check_options(const SpheresOptions& options) {
   const std::string suffix = output_suffix(options.out, sphere_outputs(), options.out_format);
-  check_certified_original(options.certificate, options.in);
-  check_certified_output(options.certificate, suffix, {".yaml"});
+  check_certified(options.certificate, options.in, suffix, {".yaml"});
   check_files({options.in}, {options.out, options.certificate, options.report});
   text_of(options, suffix, {});
   return suffix;

@@ -241,17 +241,19 @@ nlohmann::json volume_facts(const SweepRunOptions& options, const SweptZone& zon
   return {{"volume", made.volume}, {"volume_error", made.volume_error}, {"volume_is_estimated", true}};
 }
 
+nlohmann::json sweep_facts(const LinkSweep& link) {
+  const bool is_of_workspace = !link.links.empty();
+  return {{"link", link.link.empty() || is_of_workspace ? nlohmann::json() : nlohmann::json(link.link)},
+          {"links", link.links},
+          {"frame", is_of_workspace ? nlohmann::json(link.link) : nlohmann::json()},
+          {"pieces", link.sweep.pieces.size()},
+          {"cover_pieces", link.sweep.cover_pieces},
+          {"verdict", facts(link.sweep.verdict)},
+          {"fills_cavities", link.sweep.fills_cavities},
+          {"notes", link.sweep.notes}};
+}
+
 nlohmann::json report_of(const SweepRunOptions& options, const SweptZone& zone) {
-  nlohmann::json sweeps = nlohmann::json::array();
-  for (const LinkSweep& link : zone.sweeps)
-    sweeps.push_back({{"link", link.link.empty() || !link.links.empty() ? nlohmann::json() : nlohmann::json(link.link)},
-                      {"links", link.links},
-                      {"frame", link.links.empty() ? nlohmann::json() : nlohmann::json(link.link)},
-                      {"pieces", link.sweep.pieces.size()},
-                      {"cover_pieces", link.sweep.cover_pieces},
-                      {"verdict", facts(link.sweep.verdict)},
-                      {"fills_cavities", link.sweep.fills_cavities},
-                      {"notes", link.sweep.notes}});
   nlohmann::json report = sources_of(options, zone);
   report.update(
       nlohmann::json{{"path", options.out.string()},
@@ -259,7 +261,7 @@ nlohmann::json report_of(const SweepRunOptions& options, const SweptZone& zone) 
                      {"hull_faces", zone.hull ? nlohmann::json(zone.hull->mesh.face_count()) : nlohmann::json()},
                      {"beyond_limits", zone.beyond_limits},
                      {"verdict", facts(zone.verdict)},
-                     {"sweeps", sweeps},
+                     {"sweeps", json_list(zone.sweeps, sweep_facts)},
                      {"seconds", {{"read", zone.read_seconds}, {"sweep", zone.seconds}}}});
   report.update(volume_facts(options, zone));
   return report;

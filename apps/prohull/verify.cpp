@@ -105,14 +105,11 @@ void print_summary(const VerifyOptions& options, const Verification& found, cons
   say("  {} intersects itself in {}\n", hull, counted(found.self_intersections, "pair of faces", "pairs of faces"));
 }
 
-nlohmann::json near_facts(const std::vector<NearFace>& nearest) {
-  nlohmann::json all = nlohmann::json::array();
-  for (const NearFace& near : nearest)
-    all.push_back({{"face", index(near.face)},
-                   {"original_face", index(near.original_face)},
-                   {"point", near.point},
-                   {"distance", near.distance}});
-  return all;
+nlohmann::json near_facts(const NearFace& near) {
+  return {{"face", index(near.face)},
+          {"original_face", index(near.original_face)},
+          {"point", near.point},
+          {"distance", near.distance}};
 }
 
 nlohmann::json report_of(const VerifyOptions& options, const Verification& found, double gap, double seconds) {
@@ -135,7 +132,7 @@ nlohmann::json report_of(const VerifyOptions& options, const Verification& found
     json["keeps_gap"] = found.is_gap_undecided() ? nlohmann::json() : nlohmann::json(found.keeps_gap);
     json["least_distance"] = finite_or_null(found.least_distance);
     json["faces_too_near"] = found.faces_too_near;
-    json["nearest"] = near_facts(found.nearest);
+    json["nearest"] = json_list(found.nearest, near_facts);
   }
   if (has_failed_replay(found)) return json;
   json["self_intersections"] = found.self_intersections;

@@ -94,11 +94,9 @@ nlohmann::json point_or_null(const std::optional<PointOfFace>& point) {
 
 nlohmann::json report_of(const std::vector<std::filesystem::path>& files, const Union& all,
                          const UnionVerification& found) {
-  nlohmann::json names = nlohmann::json::array();
-  for (const std::filesystem::path& file : files) names.push_back(file.string());
   std::vector<std::string> notes = all.notes;
   notes.insert(notes.end(), found.notes.begin(), found.notes.end());
-  return {{"union", names},
+  return {{"union", json_list(files, [](const auto& file) { return file.string(); })},
           {"pieces", all.pieces.size()},
           {"spheres", all.balls.size()},
           {"verdict", facts(static_cast<const Verdict&>(found))},
