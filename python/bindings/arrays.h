@@ -70,11 +70,18 @@ inline pybind11::array rows_of_balls(const std::vector<Ball>& balls) {
   return array_of(std::move(values), {static_cast<pybind11::ssize_t>(balls.size()), 4});
 }
 
+/// make(x) of each x.
+template <class Range, class Make>
+pybind11::list list_of(Range&& range, Make make) {
+  pybind11::list list;
+  for (auto& each : range) list.append(make(each));
+  return list;
+}
+
 /// Of each the face, the point and the distance.
 inline pybind11::list offenders_of(const std::vector<Offender>& worst) {
-  pybind11::list rows;
-  for (const Offender& o : worst) rows.append(pybind11::make_tuple(index(o.face), point_of(o.point), o.distance));
-  return rows;
+  return list_of(worst,
+                 [](const Offender& o) { return pybind11::make_tuple(index(o.face), point_of(o.point), o.distance); });
 }
 
 inline pybind11::array vertices_of(const SharedMesh& mesh) {
@@ -89,9 +96,7 @@ inline pybind11::array faces_of(const SharedMesh& mesh) {
 
 template <class T>
 pybind11::tuple tuple_of(Names<T> names) {
-  pybind11::list all;
-  for (const auto& [name, value] : names) all.append(name);
-  return pybind11::tuple(all);
+  return pybind11::tuple(list_of(names, [](const auto& named) { return named.first; }));
 }
 
 /// Rows of a C-contiguous array as they lie in memory.

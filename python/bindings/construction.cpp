@@ -73,26 +73,26 @@ py::dict facts_of(EnclosingHull hull, const Judges& judges, const EnclosingHulls
                   const EnclosingOptions& options) {
   const Solid& solid = made.solids[hull.solid];
   py::dict facts;
-  facts["given"] = judges.given();
+  facts["_given"] = judges.given();
   facts["original"] = judges.original();
-  facts["covered"] = judges.covered(hull);
-  facts["measured"] = judges.measured(hull);
-  facts["volume_inside"] = std::isnan(hull.void_ratio) ? 0 : hull.volume_inside;
+  facts["_covered"] = judges.covered(hull);
+  facts["_measured"] = judges.measured(hull);
+  facts["_volume_inside"] = std::isnan(hull.void_ratio) ? 0 : hull.volume_inside;
   if (options.bounds.any())
-    facts["bounds"] = py::make_tuple(judges.bounded(hull), hull.volume_inside > 0 ? hull.volume_inside : solid.volume,
-                                     options.bounds.max_distance, options.bounds.max_void_ratio);
-  facts["replay_suffices"] =
+    facts["_bounds"] = py::make_tuple(judges.bounded(hull), hull.volume_inside > 0 ? hull.volume_inside : solid.volume,
+                                      options.bounds.max_distance, options.bounds.max_void_ratio);
+  facts["_replay_suffices"] =
       solid.source == Source::Mesh && solid.self_intersections == 0 && made.input.dropped.face_count() == 0;
   facts["source"] = name_of(source_names(), hull.source);
   facts["wrap_spacing"] = solid.wrap_spacing;
   facts["notes"] = told_notes(hull, made);
   if (hull.levels) hull.levels = hull.levels->with_finest_level(finest_level(made, hull));
-  facts["levels"] = std::move(hull.levels);
+  facts["_levels"] = std::move(hull.levels);
   facts["mesh"] = std::move(hull.mesh);
   facts["certified"] = hull.certified;
   facts["proof"] = hull.certified ? hull.verdict.proof : std::string_view();
   facts["gap"] = hull.padding;
-  facts["gap_asked"] = options.padding;
+  facts["_gap_asked"] = options.padding;
   facts["target_faces"] = hull.target_faces;
   facts["target_reached"] = hull.target_reached;
   facts["within_bounds"] = hull.within_bounds;
@@ -103,15 +103,13 @@ py::dict facts_of(EnclosingHull hull, const Judges& judges, const EnclosingHulls
   facts["build_seconds"] = hull.build_seconds;
   facts["verify_seconds"] = hull.verify_seconds;
   facts["repairs"] = describe(made.input.repairs);
-  facts["open_shells"] = name_of(open_shells_names(), options.open_shells);
+  facts["_open_shells"] = name_of(open_shells_names(), options.open_shells);
   return facts;
 }
 
 py::list facts_of(EnclosingHulls made, const EnclosingOptions& options) {
   const Judges judges(made, options);
-  py::list hulls;
-  for (EnclosingHull& hull : made.hulls) hulls.append(facts_of(std::move(hull), judges, made, options));
-  return hulls;
+  return list_of(made.hulls, [&](EnclosingHull& hull) { return facts_of(std::move(hull), judges, made, options); });
 }
 
 py::list build(const TriangleMesh& mesh, const std::vector<std::size_t>& targets, const py::object& progress,

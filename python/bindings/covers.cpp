@@ -57,10 +57,9 @@ py::dict convex_pieces(const TriangleMesh& mesh, const py::object& progress, con
   ConvexCover cover = watched(progress, convex_cover_options(Keywords(keywords)),
                               [&](const auto& how) { return convex_cover(mesh, how); });
   py::dict facts = common_facts_of(cover);
-  py::list pieces;
-  for (ConvexPiece& piece : cover.pieces)
-    pieces.append(py::make_tuple(std::move(piece.mesh), std::visit(PrimitiveFacts(), piece.primitive)));
-  facts["pieces"] = pieces;
+  facts["pieces"] = list_of(cover.pieces, [](ConvexPiece& piece) {
+    return py::make_tuple(std::move(piece.mesh), std::visit(PrimitiveFacts(), piece.primitive));
+  });
   return facts;
 }
 

@@ -73,9 +73,7 @@ py::dict facts_of(const TriangleMesh& mesh) {
   for (const DefectCount& defect : defect_counts(report))
     facts[py::str(defect.name.data(), defect.name.size())] = defect.count;
   facts["first_defect"] = report.first_defect;
-  py::list diameters;
-  for (const Opening& opening : openings) diameters.append(opening.diameter);
-  facts["openings"] = diameters;
+  facts["openings"] = list_of(openings, [](const Opening& opening) { return opening.diameter; });
   return facts;
 }
 

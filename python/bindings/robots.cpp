@@ -56,8 +56,7 @@ py::array matrices(const std::vector<Pose>& poses) {
 py::object matrix(const Pose& pose) { return matrices({pose})[py::int_(0)]; }
 
 Geometry geometry_called(const std::string& name) {
-  if (name == "visual") return Geometry::Visual;
-  if (name == "collision") return Geometry::Collision;
+  if (const auto geometry = value_of(geometry_names(), name)) return *geometry;
   refuse("geometry '" + name + "': expected visual or collision");
 }
 
@@ -68,8 +67,7 @@ SharedFile read(const std::filesystem::path& path, std::vector<std::filesystem::
 }
 
 py::list joints_of(const RobotFile& file) {
-  py::list joints;
-  for (const Joint& joint : file.robot.joints) {
+  return list_of(file.robot.joints, [&](const Joint& joint) {
     py::dict facts;
     facts["name"] = joint.name;
     facts["type"] = prohull::name_of(joint_type_names(), joint.type);
@@ -80,9 +78,8 @@ py::list joints_of(const RobotFile& file) {
     facts["lower"] = joint.lower;
     facts["upper"] = joint.upper;
     facts["mimics"] = joint.mimic ? py::object(py::str(file.robot.joints[joint.mimic->joint].name)) : py::none();
-    joints.append(facts);
-  }
-  return joints;
+    return facts;
+  });
 }
 
 std::vector<std::string> link_names(const RobotFile& file) {
@@ -137,9 +134,7 @@ py::dict facts_of(const LinkHull& hull, const LinkHulls& link) {
   py::dict facts;
   facts["target_faces"] = hull.target_faces;
   facts["mesh"] = shared(hull.mesh);
-  py::list pieces;
-  for (const TriangleMesh& piece : hull.pieces) pieces.append(shared(piece));
-  facts["pieces"] = pieces;
+  facts["pieces"] = list_of(hull.pieces, shared);
   facts["spheres"] = rows_of_balls(hull.balls);
   facts["origin"] = matrix(link.frame.in_link);
   facts["verdict"] = verdict_facts(hull.verdict);
@@ -154,22 +149,18 @@ py::dict facts_of(const LinkHull& hull, const LinkHulls& link) {
 }
 
 py::list facts_of(const RobotHulls& hulls) {
-  py::list links;
-  for (const LinkHulls& link : hulls.links) {
-    py::list sets;
-    for (const LinkHull& hull : link.hulls) sets.append(facts_of(hull, link));
+  return list_of(hulls.links, [&](const LinkHulls& link) {
     py::dict facts;
     facts["name"] = hulls.file->robot.links[link.link].name;
     facts["status"] = std::string(name_of(link.status));
     facts["why"] = link.why;
-    facts["hulls"] = sets;
+    facts["hulls"] = list_of(link.hulls, [&](const LinkHull& hull) { return facts_of(hull, link); });
     facts["repairs"] = link.repairs;
     facts["non_finite_faces"] = link.non_finite_faces;
     facts["seconds"] = link.seconds;
     facts["from_cache"] = link.from_cache;
-    links.append(facts);
-  }
-  return links;
+    return facts;
+  });
 }
 
 /// (path, a function that writes the file to a path) of each file.
@@ -185,14 +176,12 @@ py::list files_of(const std::shared_ptr<RobotHulls>& hulls, const std::filesyste
   if (to_mjcf)
     std::ranges::move(mujoco_files(*hulls->file, made, adjacent_pairs(hulls->file->robot)).files,
                       std::back_inserter(all));
-  py::list files;
-  for (const OutputFile& file : all)
-    files.append(
-        py::make_tuple(file.path, py::cpp_function([hulls, write = file.write](const std::filesystem::path& to) {
-                         const py::gil_scoped_release released;
-                         write(to);
-                       })));
-  return files;
+  return list_of(all, [&](const OutputFile& file) {
+    return py::make_tuple(file.path, py::cpp_function([hulls, write = file.write](const std::filesystem::path& to) {
+                            const py::gil_scoped_release released;
+                            write(to);
+                          }));
+  });
 }
 
 py::dict facts_of(const RobotFile& file, const LinkCheck& check, double allow) {
@@ -222,9 +211,8 @@ struct RobotChecks {
 py::tuple check_of(const SharedFile& file, double allow, unsigned threads, const py::object& progress) {
   auto checks = std::make_shared<RobotChecks>(RobotChecks{watched(
       progress, CheckOptions{.threads = threads}, [&](const auto& how) { return check_links(file->robot, how); })});
-  py::list facts;
-  for (const LinkCheck& check : checks->links) facts.append(facts_of(*file, check, allow));
-  return py::make_tuple(checks, facts);
+  return py::make_tuple(checks,
+                        list_of(checks->links, [&](const LinkCheck& check) { return facts_of(*file, check, allow); }));
 }
 
 py::tuple facts_of(const Robot& robot, const PairProof& proof) {
@@ -247,11 +235,11 @@ py::tuple disabled_pairs_of(const RobotFile& file, const std::string& srdf, cons
     return check_disabled_pairs(file.robot, read.rows,
                                 {.cells = cells, .threads = threads, .progress = watch.progress()});
   });
-  py::list rows;
-  for (const DisabledCheck& check : checks)
-    rows.append(py::make_tuple(check.row.link1, check.row.link2, check.row.reason, check.row.line, check.is_refuted(),
-                               facts_of(file.robot, check.collision), facts_of(file.robot, check.visual)));
-  return py::make_tuple(read.notes, rows);
+  return py::make_tuple(read.notes, list_of(checks, [&](const DisabledCheck& check) {
+                          return py::make_tuple(check.row.link1, check.row.link2, check.row.reason, check.row.line,
+                                                check.is_refuted(), facts_of(file.robot, check.collision),
+                                                facts_of(file.robot, check.visual));
+                        }));
 }
 
 py::tuple motion_of(const RobotHulls& hulls, std::size_t configurations, std::uint64_t seed, bool sampled_pairs,
@@ -266,11 +254,11 @@ py::tuple motion_of(const RobotHulls& hulls, std::size_t configurations, std::ui
       add_proofs(robot, bodies, {.cells = prove, .threads = threads, .progress = watch.progress()}, *result);
     return result;
   });
-  py::list pairs;
-  for (const MotionPair& pair : motion->pairs)
-    pairs.append(py::make_tuple(robot.links[pair.a].name, robot.links[pair.b].name, std::string(name_of(pair.kind)),
-                                pair.visual, pair.hull, pair.convex, pair.false_hull, pair.false_convex, pair.missed,
-                                facts_of(robot, pair)));
+  const py::list pairs = list_of(motion->pairs, [&](const MotionPair& pair) {
+    return py::make_tuple(robot.links[pair.a].name, robot.links[pair.b].name, std::string(name_of(pair.kind)),
+                          pair.visual, pair.hull, pair.convex, pair.false_hull, pair.false_convex, pair.missed,
+                          facts_of(robot, pair));
+  });
   return py::make_tuple(motion, pairs, srdf_of(robot, *motion, sampled_pairs));
 }
 

@@ -28,10 +28,8 @@ namespace {
 using Motions = std::vector<RigidMotion>;
 
 py::dict facts_of(Sweep sweep) {
-  py::list pieces;
-  for (TriangleMesh& piece : sweep.pieces) pieces.append(std::make_shared<TriangleMesh>(std::move(piece)));
   py::dict facts;
-  facts["pieces"] = pieces;
+  facts["pieces"] = list_of(sweep.pieces, [](TriangleMesh& piece) { return std::move(piece); });
   facts["verdict"] = verdict_facts(sweep.verdict);
   facts["fills_cavities"] = sweep.fills_cavities;
   facts["cover_pieces"] = sweep.cover_pieces;
@@ -76,9 +74,8 @@ py::dict sweep_mesh(const TriangleMesh& mesh, const Motions& motions, const py::
 
 /// (name of the link, facts) of each.
 py::list facts_of(std::vector<robot::LinkSweep> made) {
-  py::list sweeps;
-  for (robot::LinkSweep& link : made) sweeps.append(py::make_tuple(link.link, facts_of(std::move(link.sweep))));
-  return sweeps;
+  return list_of(made,
+                 [](robot::LinkSweep& link) { return py::make_tuple(link.link, facts_of(std::move(link.sweep))); });
 }
 
 robot::Geometry geometry(bool visual) { return visual ? robot::Geometry::Visual : robot::Geometry::Collision; }

@@ -38,10 +38,9 @@ py::dict facts_of(const Verification& found, double gap) {
   facts["keeps_gap"] = gap > 0 && !found.is_gap_undecided() ? py::object(py::bool_(found.keeps_gap)) : py::none();
   facts["faces_too_near"] = found.faces_too_near;
   facts["least_distance"] = found.least_distance;
-  py::list nearest;
-  for (const NearFace& near : found.nearest)
-    nearest.append(py::make_tuple(index(near.face), index(near.original_face), point_of(near.point), near.distance));
-  facts["nearest"] = nearest;
+  facts["nearest"] = list_of(found.nearest, [](const NearFace& near) {
+    return py::make_tuple(index(near.face), index(near.original_face), point_of(near.point), near.distance);
+  });
   return facts;
 }
 

@@ -138,7 +138,7 @@ def build(mesh: Any, faces: Any = None, target_faces: Any = None, *,  # type: ig
                     tolerances=() if tolerances is None else tolerances)
     with naming(mesh):
         made = _prohull.build(given._core, [int(n) for n in np.atleast_1d(targets)], progress, keywords)
-    hulls = [Hull._made(dict(facts, mirror=mirror), side) for facts in made]
+    hulls = [Hull._made(dict(facts, _mirror=mirror), side) for facts in made]
     return hulls if targets.ndim > 0 else hulls[0]
 
 

@@ -110,8 +110,8 @@ def load(path: Path, *, mirror: Optional[Axis] = None) -> Hull:
     proven, why_not = found["encloses"], found["why_not"]
     finest = _FINEST.get(levels.finest_level)
     notes = ([why_not] if why_not else []) + ([f"the finest level is {finest}, not the input itself"] if finest else [])
-    facts = dict(mesh=levels.level(0), original=original, levels=levels, source="mesh", wrap_spacing=0.0,
-                 replay_suffices=False, mirror=mirror,
+    facts = dict(mesh=levels.level(0), original=original, source="mesh", wrap_spacing=0.0, _levels=levels,
+                 _given=original, _measured=original, _replay_suffices=False, _mirror=mirror,
                  certified=proven, proof="replay" if proven else "", gap=0.0, target_faces=faces, target_reached=True,
                  within_bounds=True, refusals={}, blocked={}, relaxed_guards=0, rounded_vertices=0, build_seconds=0.0,
                  verify_seconds=0.0, repairs=[], notes=notes)

@@ -49,13 +49,13 @@ class Hull(Mesh):
     _levels: Optional[_prohull.Levels]
     _given: _prohull.Mesh  # the finite triangles that the proof is about
     _original: Mesh
-    _covered: Optional[_prohull.Mesh]  # triangles that the hull has to cover beside enclosing its original
+    _covered: Optional[_prohull.Mesh] = None  # triangles that the hull has to cover beside enclosing its original
     _measured: _prohull.Mesh  # that distance_bound is about
-    _bounds: tuple[Any, ...]  # mesh and volume that they are about, max_distance, max_void_ratio
-    _gap_asked: float
+    _bounds: tuple[Any, ...] = ()  # mesh and volume that they are about, max_distance, max_void_ratio
+    _gap_asked: float = 0.0
     _mirror: Optional[Axis] = None  # that build() was asked for
-    _volume_inside: Optional[float]  # that void is measured against; None: that of the original
-    _open_shells: OpenShells
+    _volume_inside: Optional[float] = None  # that void is measured against; None: that of the original
+    _open_shells: OpenShells = "keep"
     _replay_suffices: bool  # whether a level that encloses the solid of the original covers every triangle of it
     _distance: Optional[float] = None  # computed when it is asked for, and so are the next
     _self_intersections: Optional[int] = None
@@ -63,15 +63,8 @@ class Hull(Mesh):
 
     @classmethod
     def _made(cls, facts: dict[str, Any], side: Side) -> "Hull":
-        levels = facts.pop("levels")
-        original = Mesh._of(facts.pop("original"), levels if facts["source"] == "mesh" else None)
-        private = dict(_levels=levels, _given=facts.pop("given", original._core), _original=original,
-                       _covered=facts.pop("covered", None), _measured=facts.pop("measured", original._core),
-                       _bounds=facts.pop("bounds", ()), _gap_asked=facts.pop("gap_asked", 0.0),
-                       _mirror=facts.pop("mirror", None), _open_shells=facts.pop("open_shells", "keep"),
-                       _replay_suffices=facts.pop("replay_suffices"),
-                       _volume_inside=facts.pop("volume_inside", None))
-        return cls._with(facts.pop("mesh"), side=side, **private, **facts)
+        original = Mesh._of(facts.pop("original"), facts["_levels"] if facts["source"] == "mesh" else None)
+        return cls._with(facts.pop("mesh"), side=side, _original=original, **facts)
 
     def _as(self, core: _prohull.Mesh, **changes: Any) -> "Hull":
         """Another mesh with the facts of this hull, but for `changes`."""
