@@ -107,7 +107,7 @@ std::vector<std::size_t> targets_of(const Budget& budget) {
 
 std::optional<double> distance_left(const Budget& budget, double around) {
   double left = budget.max_distance - around;
-  while (left + around > budget.max_distance) left = std::nextafter(left, 0.0);
+  while (left > budget.padding && left + around > budget.max_distance) left = std::nextafter(left, 0.0);
   return left > budget.padding ? std::optional(left) : std::nullopt;
 }
 

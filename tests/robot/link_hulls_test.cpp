@@ -9,6 +9,7 @@
 #include <fstream>
 #include <limits>
 #include <numbers>
+#include <random>
 
 #include "effort.h"
 #include "input_error.h"
@@ -20,7 +21,9 @@
 #include "prohull/mesh_io.h"
 #include "prohull/sample.h"
 #include "prohull/union_verification.h"
+#include "random.h"
 #include "robot/hulls/cache.h"
+#include "robot/hulls/verdict.h"
 #include "robot/motion/bodies.h"
 #include "robot/robot_testing.h"
 #include "robot/transform.h"
@@ -623,6 +626,18 @@ TEST_F(CurvedLinksTest, KeepNoDistanceThatIsLessThanThatOfTheMeshesAround) {
     EXPECT_FALSE(made.hulls[0].within_bounds);
     ASSERT_FALSE(made.hulls[0].notes.empty());
     EXPECT_NE(made.hulls[0].notes.back().find("curved"), std::string::npos);
+  }
+}
+
+TEST(DistanceLeft, KeepsTheLargestDistanceWithWhatMeshesReachOutOrIsNone) {
+  std::mt19937 random(test_seed());
+  std::uniform_real_distribution<double> number(0, 1e-3);
+  for (int i = 0; i < 1000; ++i) {
+    const Budget budget{.max_distance = number(random), .padding = i % 2 * 1e-4};
+    const double around = number(random);
+    const auto left = distance_left(budget, around);
+    EXPECT_EQ(left.has_value(), budget.max_distance - around > budget.padding) << budget.max_distance << ' ' << around;
+    EXPECT_LE(left.value_or(0) + (left ? around : 0), budget.max_distance);
   }
 }
 
