@@ -69,13 +69,16 @@ JointRange range_of(const Curve& curve, double u, double v) {
   return {range.lower - rounding, range.upper + rounding};
 }
 
-/// A fraction between two at which the curve is outside of the limits by more than rounding.
+/// A fraction between two at which the curve is outside of the limits by more than rounding. One at which it hardly is
+/// may not be found: otherwise parts that hardly are would be halved without end.
 std::optional<double> fraction_outside(const Curve& curve, const JointRange& limits, double u, double v) {
-  const double rounding = 2 * rounding_of(curve);  // one of which is in range_of
-  const JointRange allowed{limits.lower - rounding, limits.upper + rounding}, range = range_of(curve, u, v);
-  if (allowed.lower <= range.lower && range.upper <= allowed.upper) return {};
+  const double rounding = rounding_of(curve);
+  const auto keep = [&](const JointRange& range, double slack) {
+    return limits.lower - slack <= range.lower && range.upper <= limits.upper + slack;
+  };
+  if (keep(range_of(curve, u, v), 4 * rounding)) return {};  // one of them is in range_of
   const double middle = std::midpoint(u, v), position = blossom(curve, middle, middle, 0);
-  if (position < allowed.lower || allowed.upper < position) return middle;
+  if (!keep({position, position}, 2 * rounding)) return middle;
   if (!(u < middle && middle < v)) return {};
   const std::optional<double> before = fraction_outside(curve, limits, u, middle);
   return before ? before : fraction_outside(curve, limits, middle, v);
@@ -254,8 +257,8 @@ double JointPath::stray(std::size_t k, double begin, double end) const {
     const Curve& curve = curves_[segment * joints_.size() + k];
     const double u = std::max(begin - row, 0.0), v = std::min(end - row, 1.0);
     for (std::size_t count = 0; count < curve.size(); ++count) {
-      const double place = row + std::lerp(u, v, static_cast<double>(count) / static_cast<double>(curve.size() - 1));
-      const double on_line = std::lerp(from, to, (place - begin) / (end - begin));
+      const double fraction = std::lerp(u, v, static_cast<double>(count) / static_cast<double>(curve.size() - 1));
+      const double on_line = std::lerp(from, to, (row - begin + fraction) / (end - begin));  // `begin` may be large
       stray = std::max(stray, std::abs(blossom(curve, u, v, count) - on_line) + 2 * rounding_of(curve));
     }
   }

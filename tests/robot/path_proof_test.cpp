@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "meshes.h"
@@ -664,6 +665,34 @@ TEST(JointPath, TellsPositionsBeyondLimitsBetweenRows) {
   EXPECT_FALSE(found->is_in_row());
   EXPECT_GT(found->position, 1);
   EXPECT_LT(found->position, 1.001);
+}
+
+// Beside a limit of 1 rounding hides 1.1e-13. A search that halves whatever it cannot decide has parts without number
+// where the curve is outside by about that.
+TEST(JointPath, DecidesAboutCurvesThatAreOutsideOfLimitsByRoundingAlone) {
+  const Robot robot = robot_of(2, {limited(joint(JointType::Revolute, 0, 1, {}, kAlongX), -1, 1)});
+  for (double bump = 0x1p-50; bump < 1e-10; bump *= 1.25) {  // halfway between the rows
+    const JointPath path(robot,
+                         {.joints = {"joint0"}, .positions = {{1}, {1}}, .velocities = {{4 * bump}, {-4 * bump}}});
+    const bool is_beyond = first_beyond_limits(robot, path).has_value();
+    EXPECT_FALSE(is_beyond && bump < 1e-13) << bump;
+    EXPECT_TRUE(is_beyond || bump < 3e-13) << bump;
+  }
+}
+
+// u + (u - 1/2)^3 is S-shaped about 1/2: off the line over a piece of the length s by up to s^3 / (12 sqrt(3)). Behind
+// so many rows places are 2^-35 apart, and a piece of that many of them has no place at a third of it.
+TEST(JointPath, StraysNoFartherThanItSaysBehindManyRows) {
+  constexpr std::size_t kRows = 1 << 17;
+  constexpr double kApart = 0x1p-35, kLength = 13331732 * kApart, kBegin = kRows + 0.5 - kLength / 2;
+  const Robot robot = robot_of(2, {joint(JointType::Continuous, 0, 1, {}, kAlongX)});
+  PathRows rows{.joints = {"joint0"}};
+  rows.positions.assign(kRows + 2, {-0.125}), rows.velocities.assign(kRows + 2, {});
+  rows.positions.back() = {1.125}, rows.velocities[kRows] = rows.velocities[kRows + 1] = {1.75};
+  const double most = std::pow(kLength, 3) / (12 * std::numbers::sqrt3);
+  const double stray = JointPath(robot, rows).stray(0, kBegin, kBegin + kLength);
+  EXPECT_GE(stray, most);
+  EXPECT_LE(stray, 4 * most);
 }
 
 }  // namespace
