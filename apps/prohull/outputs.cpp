@@ -79,10 +79,11 @@ std::string identity(const path& file) {
 }
 
 path temporary_for(const path& target, const std::string& suffix) {
+  constexpr std::size_t kLongest = 100;  // what is added here, and by who writes the file, has room in 255 bytes
   std::random_device random;
   const std::string tail = fmt::format(".{:08x}{:08x}.unfinished{}", random(), random(), suffix);
   if (is_stream(target)) return std::filesystem::temp_directory_path() / ("prohull" + tail);
-  return resolved(target).replace_filename("." + target.stem().string() + tail);
+  return resolved(target).replace_filename("." + target.stem().string().substr(0, kLongest) + tail);
 }
 
 bool is_replaced(const path& target) { return std::filesystem::is_regular_file(target) && !is_stream(target); }

@@ -40,8 +40,10 @@ std::filesystem::path resolved(const std::filesystem::path& path) {
 }
 
 std::filesystem::path unique_name_beside(std::filesystem::path path) {
+  constexpr std::size_t kLongest = 200;  // what is added has room in the 255 bytes that systems take
   std::random_device random;
-  return path += fmt::format(".{:08x}{:08x}.tmp", random(), random());
+  return path.replace_filename(
+      fmt::format("{}.{:08x}{:08x}.tmp", path.filename().string().substr(0, kLongest), random(), random()));
 }
 
 }  // namespace

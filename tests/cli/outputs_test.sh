@@ -140,6 +140,9 @@ is "an option of two lines" test "$(wc -l <err)" = 2
 printf '<robot name="r"><link name="a\302\233[2J"/><joint name="%s[2J"/></robot>' "$escape" >hostile.urdf
 expect 3 "a hostile robot" $prohull urdf hostile.urdf -o robot
 is "a hostile robot: no control characters" test -z "$(LC_ALL=C tr -d '\n\t -~' <err)"
+longest=$(printf '%0251d' 0)
+expect 0 "the longest name" $prohull repair mesh.ply -o "$longest.ply"
+expect 0 "the longest name" $prohull info "$longest.ply"
 expect 0 "a name in another alphabet" cp mesh.ply "größe.ply"
 expect 0 "a name in another alphabet" $prohull info "größe.ply"
 says out "a name in another alphabet" "größe.ply"

@@ -30,6 +30,14 @@ TEST(AtomicFile, VanishesWhenNotCommitted) {
   EXPECT_EQ(folder.file_count(), 1u);
 }
 
+TEST(AtomicFile, MayHaveTheLongestName) {
+  const TemporaryFolder folder;
+  const std::string name(255, 'a');
+  write_file(folder.path() / name, "new");
+  EXPECT_EQ(read_file(folder.path() / name), "new");
+  EXPECT_EQ(folder.file_count(), 1u);
+}
+
 TEST(AtomicFile, KeepsTheModeOfWhatItReplaces) {
   using std::filesystem::perms;
   const TemporaryFolder folder;
