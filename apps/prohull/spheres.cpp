@@ -143,8 +143,7 @@ void add_spheres(CLI::App& app, Run& run) {
       ->required();
   add_out_format_option(command, options.out_format, sphere_outputs());
   add_certificate_option(command, options.certificate, "the spheres");
-  constexpr double kMostSpheres = 100'000;
-  add_number(command, "--count", options.cover.max_balls, {1, kMostSpheres}, "Number of spheres, at most.");
+  add_number(command, "--count", options.cover.max_balls, {1, double{kMostCoverBalls}}, "Number of spheres, at most.");
   add_length(command, "--max-distance", options.max_distance,
              "Largest allowed distance that the spheres may reach out of the mesh. What closes openings of the mesh "
              "counts as mesh. As few spheres as are found to keep it are taken, at most --count. The exit code is 1 if "

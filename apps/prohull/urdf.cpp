@@ -371,7 +371,7 @@ void add_sizes(CLI::App& command, UrdfOptions& options) {
                              "Largest number of convex pieces of each link, with --collision convex."));
   is_for(Collision::Convex, add_optional_number(command, "--vertices", budget.vertices, {4, 1e9},
                                                 "Largest number of vertices of each convex piece, at least 4."));
-  is_for(Collision::Spheres, add_optional_number(command, "--spheres", budget.spheres, {1, 1e9},
+  is_for(Collision::Spheres, add_optional_number(command, "--spheres", budget.spheres, {1, double{kMostCoverBalls}},
                                                  "Largest number of spheres of each link, with --collision spheres."));
 }
 

@@ -12,8 +12,11 @@
 
 namespace prohull {
 
+/// More balls of a cover are refused: what is searched grows with their number, until it has no memory.
+inline constexpr std::size_t kMostCoverBalls = 100'000;
+
 struct SphereCoverOptions {
-  std::size_t max_balls = 64;  ///< at least 1
+  std::size_t max_balls = 64;  ///< at least 1, at most kMostCoverBalls
   /// How far the balls may reach (Verdict::distance), in the input's unit. With it the cover has as few balls as keep
   /// it, at most max_balls.
   double max_distance = std::numeric_limits<double>::infinity();

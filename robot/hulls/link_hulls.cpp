@@ -12,6 +12,7 @@
 #include "prohull/convex_hull.h"
 #include "prohull/detail/float32_hull.h"
 #include "prohull/detail/refuse.h"
+#include "prohull/detail/text.h"
 #include "prohull/error.h"
 #include "prohull/sphere_cover.h"
 #include "robot/form_measures.h"
@@ -57,6 +58,9 @@ void require_possible(const std::string& of, const Budget& budget) {
         fmt::format("{}a hull that keeps a gap of {:g} is farther than {:g} from its link: the largest distance must "
                     "be greater than the gap",
                     of, budget.padding, budget.max_distance));
+  if (budget.collision == Collision::Spheres && budget.spheres > kMostCoverBalls)
+    refuse(
+        fmt::format("{}there are at most {} spheres of a link, not {}", of, grouped(kMostCoverBalls), budget.spheres));
   if (budget.collision == Collision::Hull) return;
   const std::string where = fmt::format("{}collision '{}'", of, prohull::name_of(collision_names(), budget.collision));
   if (budget.padding > 0) refuse(where + " takes no gap; use hulls, or let the planner add it");

@@ -116,7 +116,7 @@ bool is_covered(const Shape& shape, const Budget& budget);
 std::string_view cover_words(std::span<const LinkHulls> links);
 
 /// Throws InputError(InvalidOption): a budget of a link that does not exist; padding, several numbers of faces or
-/// `tight` where there is no hull that could have them.
+/// `tight` where there is no hull that could have them; more spheres than kMostCoverBalls.
 void check_budgets(const Robot& robot, const LinkHullOptions& options);
 
 /// Hulls of all links, in the order of Robot::links. Links are worked on side by side; the result is the same for any

@@ -41,6 +41,8 @@ using cover::Place;
 
 void check(const SphereCoverOptions& options) {
   if (options.max_balls == 0) refuse("max_balls is 0; a cover has at least one ball");
+  if (options.max_balls > kMostCoverBalls)
+    refuse(fmt::format("a cover has at most {} spheres, not {}", grouped(kMostCoverBalls), options.max_balls));
   if (!(options.max_distance > 0))
     refuse(fmt::format("max_distance is {}; it must be greater than 0", options.max_distance));
 }

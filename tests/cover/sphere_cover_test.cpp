@@ -321,6 +321,7 @@ TEST(SphereCover, RefusesWhatCannotBeCovered) {
   EXPECT_THROW(sphere_cover(meshes::make({{0, 0, kNaN}}, {{0, 0, 0}})), InputError);
   EXPECT_THROW(sphere_cover(meshes::make({{1, 2, 3}}, {{0, 0, 0}})), InputError);
   EXPECT_THROW(sphere_cover(box, {.max_balls = 0}), InputError);
+  EXPECT_THROW(sphere_cover(box, {.max_balls = kMostCoverBalls + 1}), InputError);
   for (const double distance : {0.0, -1.0, kNaN})
     EXPECT_THROW(sphere_cover(box, {.max_distance = distance}), InputError);
 }

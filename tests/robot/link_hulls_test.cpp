@@ -158,7 +158,7 @@ TEST_F(LinkHullsTest, MayBeSpheresInTheFrameOfTheLink) {
   EXPECT_EQ(again[0].hulls[0].mesh, made[0].hulls[0].mesh);
 }
 
-TEST_F(LinkHullsTest, RefuseWhatOnlyHullsCanHave) {
+TEST_F(LinkHullsTest, RefuseWhatTheirKindCannotHave) {
   const auto refused = [&](const char* expected) {
     const std::string refusal = refusal_of([&] { link_hulls(robot_, options_); }, Defect::InvalidOption);
     EXPECT_TRUE(has(refusal, expected)) << refusal << ", not " << expected;
@@ -167,6 +167,8 @@ TEST_F(LinkHullsTest, RefuseWhatOnlyHullsCanHave) {
   refused("link arm: collision 'convex' takes no gap");
   options_.budgets["arm"] = {.collision = Collision::Spheres, .faces = {500, 100}};
   refused("link arm: collision 'spheres' comes in one set");
+  options_.budgets["arm"] = {.collision = Collision::Spheres, .spheres = 100'001};
+  refused("link arm: there are at most 100,000 spheres of a link, not 100001");
   options_.budgets.clear();
   options_.budget.collision = Collision::Spheres, options_.tight = true;
   refused("--tight is about hulls");
