@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "prohull/convex_hull.h"
+#include "prohull/detail/rounded.h"
 #include "prohull/error.h"
 #include "robot/link_triangles.h"
 
@@ -22,7 +23,7 @@ class PieceReader {
       pieces_.notes.push_back(
           fmt::format("{}: boxes whose corners have no exact coordinates: {}; they count as "
                       "smaller by up to {:.2g}",
-                      file_.path.string(), smaller_boxes_, largest_margin_));
+                      file_.path.string(), smaller_boxes_, rounded_up(largest_margin_, 2)));
     return std::move(pieces_);
   }
 

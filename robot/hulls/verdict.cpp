@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "prohull/detail/rounded.h"
 #include "prohull/error.h"
 #include "prohull/union_verification.h"
 #include "prohull/verification.h"
@@ -116,7 +117,7 @@ void judge(LinkHull& hull, const JudgedGeometry& geometry, const Budget& budget,
     hull.within_bounds = false;
     hull.notes.push_back(fmt::format(
         "keeps no largest distance: the meshes around its curved shapes reach out of them by up to {:.3g} mm",
-        geometry.curved.around * 1000));
+        1000 * rounded_up(geometry.curved.around, 3)));
   }
   switch (budget.collision) {
     case Collision::Hull:

@@ -643,6 +643,16 @@ TEST(DistanceLeft, KeepsTheLargestDistanceWithWhatMeshesReachOutOrIsNone) {
   }
 }
 
+TEST(Judge, TellsNoLessThanMeshesReachOutOfCurvedShapes) {
+  const TriangleMesh triangles = form_mesh(SphereForm{0.5}, Curved::Around);
+  const RepairedMesh input = prepared_for_hulls(triangles);
+  const CurvedParts curved{.parts = {}, .around = 0.0012341};
+  LinkHull hull{.mesh = meshes::box({-1, -1, -1}, {1, 1, 1})};
+  judge(hull, {triangles, input, curved}, {.max_distance = 0.001}, {});
+  ASSERT_EQ(hull.notes.size(), 1U);
+  EXPECT_TRUE(has(hull.notes[0], "by up to 1.24 mm")) << hull.notes[0];
+}
+
 TEST_F(CurvedLinksTest, SpheresKeepTheLargestDistanceFromTheFormsThemselves) {
   make_links({{capsule_}});
   options_.budget = {.collision = Collision::Spheres, .spheres = 200, .max_distance = 0.03};

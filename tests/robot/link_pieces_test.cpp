@@ -51,7 +51,9 @@ TEST(LinkPieces, AreWithinBoxesThatAreTurned) {
                   "<box size=\"0.3 1 5\"/>");
     ASSERT_EQ(pieces.meshes.size(), 1U);
     EXPECT_EQ(pieces.meshes[0].vertex_count(), 8U);
-    EXPECT_EQ(pieces.notes.size(), 1U);
+    ASSERT_EQ(pieces.notes.size(), 1U);
+    const double told = std::stod(pieces.notes[0].substr(pieces.notes[0].rfind(' ')));
+    EXPECT_GE(told, 0x1p-44 * (norm({0.3, 1, 5}) + norm(t))) << "at most that";
     const Pose back = inverse(pose_of_rpy(rpy, t));
     for (const Vec3& p : pieces.meshes[0].positions) {
       const Vec3 q = placed(back, p);
