@@ -9,6 +9,7 @@
 
 #include "command.h"
 #include "prohull/error.h"
+#include "prohull/sphere_cover.h"
 #include "robot/check/check.h"
 #include "robot/files/robot_file.h"
 #include "robot/hulls/budgets.h"
