@@ -60,7 +60,6 @@ PerVertex<VertexId> first_at_position(const PerVertex<Vec3>& positions) {
   return first;
 }
 
-/// The first and the last vertex of each component, by x, y and z.
 /// The parts whose faces are connected by vertices, matched by position.
 DisjointSets connected_vertices(const TriangleMesh& mesh) {
   const PerVertex<VertexId> first = first_at_position(mesh.positions);
@@ -82,6 +81,7 @@ bool is_inside_out(const TriangleMesh& mesh) {
   return std::ranges::all_of(parts, [](const auto& part) { return part.empty() || volume_sign(part) < 0; });
 }
 
+/// The first and the last vertex of each component, by x, y and z.
 std::vector<Segment> component_ends_of(const TriangleMesh& mesh) {
   DisjointSets connected = connected_vertices(mesh);
   PerVertex<Segment> ends(mesh.vertex_count());

@@ -130,7 +130,7 @@ class MovedPiece {
 
   // While the axis goes straight, the arc of the unit circle becomes (cos s, sin s) + s d, with s from -h to h and d
   // the shift for an angle of 1. It lies in the convex hull of its ends and of the tangents' meeting point moved by w d
-  // for all |w| <= tan h - h: with the weights of the arc, the meeting point has to move by w(s) = -cos h / sin h times
+  // for all |w| <= tan h - h: with the weights of the arc, the meeting point has to move by w(s) = -sin h / cos h times
   // (h sin s - s sin h) / (cos s - cos h). Both parts of the fraction are 0 at h, and the ratio of their derivatives,
   // (sin h - h cos s) / sin s, increases up to h; so does the fraction (the monotone form of l'Hospital's rule). Its
   // limit there is (sin h - h cos h) / sin h.
