@@ -245,6 +245,31 @@ TEST(EnclosingHull, TriesOtherWrapsWhereTheirHullsAreStuck) {
     EXPECT_LT(hull_of(make_sample("bracket", 3000), faces).hulls[0].void_ratio, 0.3) << faces;
 }
 
+/// With rings of vertices along its sides.
+TriangleMesh cylinder(std::uint32_t corners, std::uint32_t rings) {
+  TriangleMesh mesh;
+  for (std::uint32_t ring = 0; ring < rings; ++ring)
+    for (std::uint32_t i = 0; i < corners; ++i) {
+      const double angle = 2 * std::numbers::pi * i / corners;
+      mesh.positions.push_back({std::cos(angle), std::sin(angle), 2.0 * ring});
+    }
+  const auto at = [&](std::uint32_t ring, std::uint32_t i) { return VertexId(ring * corners + i % corners); };
+  for (std::uint32_t i = 0; i < corners; ++i) {
+    for (std::uint32_t ring = 0; ring + 1 < rings; ++ring) {
+      mesh.triangles.push_back({at(ring, i), at(ring, i + 1), at(ring + 1, i)});
+      mesh.triangles.push_back({at(ring, i + 1), at(ring + 1, i + 1), at(ring + 1, i)});
+    }
+    if (i == 0 || i + 1 == corners) continue;
+    mesh.triangles.push_back({at(0, 0), at(0, i + 1), at(0, i)});
+    mesh.triangles.push_back({at(rings - 1, 0), at(rings - 1, i), at(rings - 1, i + 1)});
+  }
+  return mesh;
+}
+
+TEST(EnclosingHull, OfACylinderHasNoVoidWhereItNeedsNone) {
+  EXPECT_LT(enclosing_hull(cylinder(48, 5), 188).void_ratio, 1e-9);
+}
+
 // Once outwards and once inside out, in the same place.
 TEST(EnclosingHull, OfWhatCoversItsConvexHullTakesNoWrap) {
   const TriangleMesh solid = octahedron();
