@@ -82,7 +82,7 @@ void take_best_of_seed(Ranking& ranking, const Request& request, std::size_t tar
   const bool is_enough =
       !bounds.any() || (plain && plain->hull.certified && plain->hull.target_reached && plain->hull.within_bounds);
   if (is_enough)
-    for (const std::string& note : without_bounds.all()) notes.add(note);
+    notes.add(without_bounds);
   else
     ranking.take(best_of_seed(request, target_faces, bounds, seed, solids, notes));
   if (!is_enough && plain && plain->hull.certified && !request.is_bound_to_mesh() && !request.options.levels)

@@ -45,7 +45,32 @@ std::string described(const Solid& solid, const Repairs& repairs) {
 }  // namespace
 
 void Notes::add(std::string text) {
-  if (std::ranges::find(notes_, text) == notes_.end()) notes_.push_back(std::move(text));
+  if (std::ranges::find(notes_, text, &Note::text) == notes_.end()) notes_.push_back({std::move(text), {}});
+}
+
+void Notes::add_why_not(Source source, std::string text) {
+  std::erase_if(notes_, [&](const Note& note) { return note.why_not == source; });
+  notes_.push_back({std::move(text), source});
+}
+
+void Notes::add(const Notes& others) {
+  for (const Note& note : others.notes_)
+    if (note.why_not)
+      add_why_not(*note.why_not, note.text);
+    else
+      add(note.text);
+}
+
+void Notes::remove(const std::string& text) {
+  std::erase_if(notes_, [&](const Note& note) { return note.text == text; });
+}
+
+std::vector<std::string> Notes::beside(Source source, bool is_as_asked) const {
+  std::vector<std::string> texts;
+  for (const Note& note : notes_)
+    if (!is_as_asked || !note.why_not || (note.why_not == Source::Mesh && source != Source::Mesh))
+      texts.push_back(note.text);
+  return texts;
 }
 
 void Ranking::take(std::optional<Attempt> attempt) {
@@ -58,8 +83,9 @@ void Ranking::take(std::optional<Attempt> attempt) {
   if (hull.source == Source::Wrap) fewest_of_wraps_ = std::min(fewest_of_wraps_, hull.mesh.face_count());
   if (attempt->void_before_padding) void_before_padding_ = *attempt->void_before_padding;
   if (!attempt->why_not_storable.empty())
-    notes_.add(fmt::format("a hull of {} has no float32 coordinates: {}",
-                           described(solids_[hull.solid], request_.input.repairs), attempt->why_not_storable));
+    notes_.add_why_not(hull.source,
+                       fmt::format("a hull of {} has no float32 coordinates: {}",
+                                   described(solids_[hull.solid], request_.input.repairs), attempt->why_not_storable));
   else if (!is_as_asked(hull) && request_.is_free() && attempt->candidate.recipe.method != Method::Early &&
            !is_in_spite_of_bounds(*attempt) && (hull.certified || !other_way(attempt->candidate.recipe, request_)))
     note_why_not(hull);
@@ -129,32 +155,31 @@ std::string Ranking::none_within_bounds(SolidId solid) const {
   return fmt::format("no hull of {} was found within the bounds", described(solids_[solid], request_.input.repairs));
 }
 
-void Ranking::note_why_not(const EnclosingHull& hull) {
+void Ranking::note_why_not(const EnclosingHull& hull) { notes_.add_why_not(hull.source, why_not(hull)); }
+
+std::string Ranking::why_not(const EnclosingHull& hull) const {
   const std::string source = described(solids_[hull.solid], request_.input.repairs);
   if (!hull.certified)
-    notes_.add(fmt::format(
+    return fmt::format(
         "a hull of {} {}", source,
         request_.is_padded()
             ? std::string(
                   "does not keep the gap everywhere, as where parts are closer to each other than twice the gap")
         : request_.is_outer() ? "does not cover every triangle" + place_of(hull.verdict)
-                              : "is not proven to lie inside of the mesh"));
-  else if (!hull.within_bounds)
-    notes_.add(none_within_bounds(hull.solid));
-  else if (!hull.target_reached)
-    notes_.add(fmt::format("no legal collapse of {} is left at {} faces: of its edges, {}", source,
-                           grouped(hull.mesh.face_count()), describe_refusals(hull.blocked)));
-  else
-    notes_.add(fmt::format("a hull of {} intersects itself in {}", source,
-                           counted(hull.self_intersections, "pair of faces", "pairs of faces")));
+                              : "is not proven to lie inside of the mesh");
+  if (!hull.within_bounds) return none_within_bounds(hull.solid);
+  if (!hull.target_reached)
+    return fmt::format("no legal collapse of {} is left at {} faces: of its edges, {}", source,
+                       grouped(hull.mesh.face_count()), describe_refusals(hull.blocked));
+  return fmt::format("a hull of {} intersects itself in {}", source,
+                     counted(hull.self_intersections, "pair of faces", "pairs of faces"));
 }
 
 void Ranking::refuse() {
   const RepairedMesh& input = request_.input;
   if (!best_)
-    throw InputError(
-        input.closed ? Defect::NoVolume : Defect::OpenEdge,
-        fmt::format("nothing could be wrapped: {}", notes_.all().empty() ? input.obstacle : notes_.all().back()));
+    throw InputError(input.closed ? Defect::NoVolume : Defect::OpenEdge,
+                     fmt::format("nothing could be wrapped: {}", notes_.is_empty() ? input.obstacle : notes_.last()));
   if (!request_.is_outer() && request_.is_padded())
     throw InputError(
         Defect::NoCertificate,
@@ -162,10 +187,9 @@ void Ranking::refuse() {
             "no inner hull of {} faces was found that keeps the gap of {:g}{}; use a smaller gap, or more faces",
             target_faces_, request_.options.padding,
             has_wrap() ? "" : ": the mesh must be thicker than twice the gap somewhere"));
-  if (notes_.all().empty()) note_why_not(best_->hull);
-  throw InputError(Defect::NoCertificate,
-                   fmt::format("no hull of {} faces could be certified: {}; try {}", target_faces_, notes_.all().back(),
-                               what_to_try(request_.options)));
+  if (notes_.is_empty()) note_why_not(best_->hull);
+  throw InputError(Defect::NoCertificate, fmt::format("no hull of {} faces could be certified: {}; try {}",
+                                                      target_faces_, notes_.last(), what_to_try(request_.options)));
 }
 
 std::optional<Attempt> Ranking::taken() && {
@@ -188,7 +212,7 @@ EnclosingHull Ranking::winner() {
   if (solid.source == Source::Wrap && !request_.input.closed && volume() == 0 && !(hull.verdict.original_volume > 0))
     notes_.add("no space was found inside of the triangles: the hull is a sheet around them");
   if (hull.mesh.face_count() == solid.mesh.face_count()) hull.relaxed_guards = 0;  // nothing collapsed
-  hull.notes = notes_.all();
+  hull.notes = notes_.beside(hull.source, is_as_asked(hull));
   return hull;
 }
 

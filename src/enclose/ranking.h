@@ -13,11 +13,23 @@ namespace prohull {
 class Notes {
  public:
   void add(std::string text);
-  void remove(const std::string& text) { std::erase(notes_, text); }
-  const std::vector<std::string>& all() const { return notes_; }
+  /// Why a hull of this source is not as asked for. Of each source the last one counts.
+  void add_why_not(Source source, std::string text);
+  void add(const Notes& others);
+  void remove(const std::string& text);
+
+  bool is_empty() const { return notes_.empty(); }
+  const std::string& last() const { return notes_.back().text; }
+  /// What a user needs to know beside a hull of `source`: of one that is as asked for only why it is not of the mesh.
+  std::vector<std::string> beside(Source source, bool is_as_asked) const;
 
  private:
-  std::vector<std::string> notes_;
+  struct Note {
+    std::string text;
+    std::optional<Source> why_not;
+  };
+
+  std::vector<Note> notes_;
 };
 
 /// Which of the attempts is preferred, and why others are not as asked for.
@@ -63,6 +75,7 @@ class Ranking {
   double weighed_size(const EnclosingHull& hull) const;
   std::string none_within_bounds(SolidId solid) const;
   void note_why_not(const EnclosingHull& hull);
+  std::string why_not(const EnclosingHull& hull) const;
   [[noreturn]] void refuse();
 
   double volume() const { return solids_.volume(target_faces_); }

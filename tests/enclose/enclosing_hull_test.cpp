@@ -892,6 +892,14 @@ TEST(EnclosingHull, LiesInsideOfAFoldedMeshWithinABound) {
   EXPECT_LT(hull.mesh.face_count(), 300U);
 }
 
+// Each seed has tries that come to nothing, of seven solids.
+TEST(EnclosingHull, OfSeveralSeedsSaysOnceWhyItIsNotOfTheMesh) {
+  const EnclosingHull hull = enclosing_hull(make_sample("bracket", 600), 40, {.best_of = 3});
+  ASSERT_TRUE(hull.target_reached && hull.source == Source::Wrap);
+  ASSERT_EQ(hull.notes.size(), 1U) << testing::PrintToString(hull.notes);
+  EXPECT_EQ(hull.notes[0].find("no legal collapse of the mesh itself is left at "), 0U);
+}
+
 // Levels of the convex hull keep it with 90 faces; the hull that moves on its way down, with 60.
 TEST(EnclosingHull, KeepsABoundWithAsFewFacesAsTheHullWithoutIt) {
   const EnclosingHull hull = enclosing_hull(make_sample("gyroid", 1500), 60, {.bounds = {.max_distance = 0.25}});
