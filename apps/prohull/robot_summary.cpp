@@ -383,9 +383,13 @@ void say_check(const RobotFile& file, std::span<const LinkCheck> checks, double 
 }
 
 void say_disabled(const Robot& robot, const std::string& file, std::span<const DisabledCheck> checks) {
-  const auto count = [&](PairVerdict verdict) {
-    return std::ranges::count_if(checks, [&](const DisabledCheck& c) { return c.collision.verdict == verdict; });
+  // Of what is free by the collision geometry, the visual one counts.
+  const auto verdict_of = [](const DisabledCheck& check) {
+    const PairVerdict verdict = check.collision.verdict;
+    const bool is_free = verdict == PairVerdict::Never || verdict == PairVerdict::NoGeometry;
+    return is_free ? check.visual.verdict : verdict;
   };
+  const auto count = [&](PairVerdict verdict) { return std::ranges::count(checks, verdict, verdict_of); };
   for (const DisabledCheck& check : checks) {
     const auto is = [&](PairVerdict verdict) {
       return check.collision.verdict == verdict || check.visual.verdict == verdict;

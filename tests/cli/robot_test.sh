@@ -78,6 +78,11 @@ expect 1 "an SRDF that ships" $urdf --check --allow 1m --srdf robot.srdf --junit
 says out "a refuted row" 'line 2, base and wheel, "Never": REFUTED: the collision geometry meets at lift '
 says out "a row of a link that is not there" 'line 3, base and head, "Never": names no two links of the robot'
 says out "rows are counted" "robot.srdf: 3 disabled pairs: 1 adjacent, 0 never meet, 0 always, 1 meet, 0 open; 1 REFUTED"
+sed '/<collision><geometry><cylinder/d' robot/robot.urdf >robot/bare.urdf
+expect 1 "a row of a link that nothing covers" $prohull urdf robot/bare.urdf --check --srdf robot.srdf
+says out "a row of a link that nothing covers" 'line 2, base and wheel, "Never": REFUTED: the collision geometry has no geometry; the visual geometry meets'
+says out "a row of a link that nothing covers" "1 adjacent, 0 never meet, 0 always, 1 meet, 0 open; 1 REFUTED"
+rm robot/bare.urdf
 says rows.xml "rows in JUnit" "three: disabled pairs"
 says rows.json "rows in JSON" '"disabled_pairs"'
 sed 's/name="three"/name="four"/' robot.srdf >four.srdf
