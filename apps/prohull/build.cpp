@@ -25,10 +25,13 @@ namespace prohull::cli {
 namespace {
 
 void require_faces_in_name(const BuildOptions& options, const std::filesystem::path& file) {
-  if (options.faces.size() > 1 && !file.empty() && path_for(file, 0) == file)
-    refuse(fmt::format(
-        "{}: several hulls need several names; put {{faces}} where the number of faces goes, as in {}", file.string(),
-        (file.parent_path() / (file.stem().string() + "_{faces}" + file.extension().string())).string()));
+  if (options.faces.size() <= 1 || file.empty() || path_for(file, 0) != file) return;
+  const auto named = is_standard_stream(file) ? std::filesystem::path("hull." + options.out_format) : file;
+  refuse(fmt::format(
+      "{}: --faces asks for {} hulls, which need names of their own; put {{faces}} where the number of faces goes, as "
+      "in {}",
+      output_name(file), options.faces.size(),
+      (named.parent_path() / (named.stem().string() + "_{faces}" + named.extension().string())).string()));
 }
 
 /// What the names of the outputs end in; refuses options that contradict each other.
@@ -148,7 +151,6 @@ void complete(BuildOptions& options, const std::string& suffix) {
   HullOptions& hull = options.enclosing.hull;
   hull.float32_coordinates = stores_float32(mesh_format("hull" + suffix));
   hull.guards.max_normal_deviation = options.normal_deviation_degrees * kDegree;
-  if (options.max_void_percent > 0) options.enclosing.bounds.max_void_ratio = options.max_void_percent / 100;
   options.enclosing.levels = !options.hierarchy.empty();
 }
 
@@ -190,8 +192,8 @@ int exit_code(const BuildOptions& options, const BuildOutcome& outcome) {
   return !all_certified || !all_within_bounds || (options.strict && !is_as_asked(outcome)) ? kAnswerIsNo : kDone;
 }
 
-/// The options with the names of what is written for this mesh. A hull that goes into a folder has the format of its
-/// mesh, if hulls are written in that format.
+/// The options of this mesh: the bound of its void, and the names of what is written. A hull that goes into a folder
+/// has the format of its mesh, if hulls are written in that format.
 BuildOptions for_mesh(BuildOptions options, const std::filesystem::path& in) {
   const std::vector<std::string> formats = mesh_outputs().suffixes;
   const bool is_written = std::ranges::find(formats, lower_case_extension(without_gz(in))) != formats.end();
@@ -201,6 +203,7 @@ BuildOptions for_mesh(BuildOptions options, const std::filesystem::path& in) {
   options.out = pattern_of(options.out, (options.faces.size() > 1 ? "_{faces}" : "") + suffix);
   for (auto* const file : {&options.out, &options.hierarchy, &options.certificate, &options.report})
     *file = named_after(*file, in);
+  if (options.max_void_percent > 0) options.enclosing.bounds.max_void_ratio = options.max_void_percent / 100;
   return options;
 }
 
@@ -262,7 +265,7 @@ void add_bounds(CLI::App& command, BuildOptions& options) {
              "the mesh counts as mesh. The hull has the fewest faces, at least --faces, with which one was found that "
              "provably keeps it; the exit code is 1 if none was found. With --tight, some ten hulls are built to find "
              "it.");
-  add_optional_number(command, "--max-void", options.max_void_percent, kPositive,
+  add_optional_number(command, "--max-void", options.max_void_percent, kPercent,
                       "Largest allowed void, in per cent. The void is how much more volume the hull has than the mesh, "
                       "caps on its openings and cavities that are filled included (an inner hull: how much less).")
       ->type_name("PERCENT");

@@ -458,7 +458,7 @@ void add_convex(CLI::App& app, Run& run) {
              "Largest allowed distance that the pieces may reach out of the mesh. Points of a piece that lie in other "
              "pieces, or in the solid of the mesh, do not count. What closes openings of the mesh counts as mesh. With "
              "such a bound there are as few pieces as are found to keep it.");
-  add_optional_number(command, "--max-void", options.max_void_percent, kPositive,
+  add_optional_number(command, "--max-void", options.max_void_percent, kPercent,
                       "Largest allowed void, in per cent. The void is how much more volume the pieces have together "
                       "than the mesh. With such a bound there are as few pieces as are found to keep it.")
       ->type_name("PERCENT");

@@ -48,6 +48,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 CLI::Validator number_in(const std::string& name, const Range& range, bool whole) {
   return CLI::Validator(
       [=](std::string& text) -> std::string {
+        if (range.in_percent && text.size() > 1 && text.ends_with('%')) text.pop_back();
         const auto number = parsed<double>(text);
         if (!number || !std::isfinite(*number))
           return fmt::format("{} must be a {}number, not '{}'", name, whole ? "whole " : "", text);

@@ -23,8 +23,10 @@ namespace prohull::cli {
 struct Range {
   double least = 0, most = std::numeric_limits<double>::infinity();
   bool without_least = false;
+  bool in_percent = false;  ///< a % may stand behind the number
 };
 constexpr Range kPositive{.without_least = true};
+constexpr Range kPercent{.without_least = true, .in_percent = true};
 constexpr Range kSeed{0, 0x1p64};
 
 /// Refuses what is no number in the range, and writes the others as CLI11 reads them: 1e6 as 1000000.

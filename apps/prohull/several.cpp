@@ -66,7 +66,7 @@ void check_outputs(const std::vector<fs::path>& meshes,
       refuse(
           fmt::format("{}: several meshes need several names; put {{name}} where the name of the mesh goes, as in {} "
                       "'{}'{}",
-                      file.string(), option, (file.parent_path() / ("{name}" + file.extension().string())).string(),
+                      output_name(file), option, (file.parent_path() / ("{name}" + file.extension().string())).string(),
                       option == std::string_view("-o") ? ", or end -o in / for a folder" : ""));
   std::vector<fs::path> outputs;
   for (const fs::path& mesh : meshes)

@@ -339,7 +339,7 @@ void add_robot_options(CLI::App& command, SweepRunOptions& options) {
   command
       .add_flag("--workspace", options.workspace,
                 "In place of a PATH: with each joint anywhere within its limits, all that the robot may ever reach.")
-      ->excludes(command.get_option("path"));
+      ->excludes(command.get_option("PATH"));
   add_geometry_option(command, options.geometry);
 }
 
@@ -353,7 +353,7 @@ void add_sweep(CLI::App& app, Run& run) {
       "union of convex pieces, or with --faces one closed mesh around them.",
       run_sweep);
   add_mesh_input(command, options.in, options.input, "Mesh to move, or a robot: URDF, SDF or MJCF.");
-  add_value(command, "path", options.joint_path, "PATH",
+  add_value(command, "PATH", options.joint_path, "PATH",
             "Of a robot, the path of its joints: CSV or JSON, as `prohull motion` reads it.");
   add_mesh_output_options(command, options.out, options.out_format, "the zone");
   add_optional_number(

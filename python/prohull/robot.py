@@ -270,7 +270,7 @@ class Hulls(Shown):
     def save(self, folder: Path, *, package: Optional[str] = None, to: Optional[Literal["mjcf"]] = None) -> list[str]:
         """Writes a robot whose collision elements name the hulls, with the hulls beside it. Returns the paths.
 
-        folder: is made if it is not there. Each file appears whole or not at all.
+        folder: is made if it is not there. Each file appears whole or not at all, in place of one that has its name.
         package: make the folder a ROS package of this name, with copies of the files that the robot names.
         to: "mjcf" also writes a URDF robot as MJCF, for MuJoCo, without contacts between links that a joint connects.
 

@@ -71,13 +71,21 @@ std::string described_guards(const EnclosingHull& hull) {
       std::isfinite(guards.max_overhang) ? "" : " and spikes are allowed", hull.relaxed_guards, kRelaxedGuards.size());
 }
 
+/// Of several bounds that which is missed by most.
+const char* missed_bound(const ToldHull& told) {
+  constexpr double kRounding = 1e-9;
+  const double used_of_void = std::abs(told.hull.void_ratio) / told.options.bounds.max_void_ratio;
+  return used_of_void >= (1 - kRounding) * told.hull.excess ? "void" : "distance";
+}
+
 std::string line_of_missed_bounds(const ToldHull& told) {
   constexpr double kFar = 1e4;
   const double missing = told.hull.excess - 1;
   const bool is_open = !told.made.input.closed || told.measures.has_openings;
   std::string line = "NOT within the bounds asked for: of all that was tried, this hull misses them least";
   line += missing > kFar ? fmt::format(", by more than {:.0f} %", 100 * kFar)
-                         : fmt::format(", by {:.3g} %; allow that much", rounded_up(100 * missing, 3));
+                         : fmt::format(", by {:.3g} % of the largest {}; allow that much", rounded_up(100 * missing, 3),
+                                       missed_bound(told));
   if (is_open || told.input_self_intersections > 0)
     line += fmt::format("{} mend the mesh where it {}", missing > kFar ? ";" : ", or",
                         is_open ? "is open or intersects itself" : "intersects itself");

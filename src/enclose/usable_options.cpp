@@ -63,7 +63,7 @@ void require_usable(const TriangleMesh& triangles, std::span<const std::size_t> 
   require_usable_tolerances(triangles, options);
   require_usable_mirror(options);
   if (options.hull.side == HullSide::Inner && (options.repair == Repair::Wrap || options.seal_holes > 0))
-    refuse("nothing is known to be inside of a wrap: inner hulls do without");
+    refuse("inner hulls are not built from wraps, of which nothing is known to be inside: leave the repair at auto");
 }
 
 }  // namespace prohull

@@ -39,9 +39,20 @@ expect 2 "half a face" $prohull build rock.ply --faces 100.5 -o x.ply
 says err "half a face" "--faces must be a whole number, not 100.5"
 $prohull sample bracket --faces 500 -o bracket.ply >/dev/null
 expect 0 "bounds ask for more faces" $prohull build bracket.ply --faces 50 --max-distance 0.001 -o x.ply --report x.json
-says_not out "bounds ask for more faces" "no hull of the mesh itself"
+says_not out "bounds ask for more faces" "no hull of"
 says x.json "bounds ask for more faces" '"within_bounds": true'
 says x.json "bounds ask for more faces" '"stopped": "bounds_reached"'
+expect 2 "two numbers of faces" $prohull build rock.ply --faces 100 --faces 50 -o x.ply
+says err "two numbers of faces" "x.ply: --faces asks for 2 hulls, which need names of their own; put {faces} where the number of faces goes, as in x_{faces}.ply"
+expect 2 "two hulls for standard output" $prohull build rock.ply --faces 100,50 -o - --out-format off
+says err "two hulls for standard output" "standard output: --faces asks for 2 hulls"
+says err "two hulls for standard output" "as in hull_{faces}.off"
+expect 0 "a void in per cent" $prohull build rock.ply --faces 50 --max-void 40% -o x.ply --report x.json
+says x.json "a void in per cent" '"max_void_percent": 40.0'
+expect 2 "a void of no number" $prohull build rock.ply --faces 50 --max-void % -o x.ply
+says err "a void of no number" "--max-void must be a number, not '%'"
+expect 2 "a path and a workspace" $prohull sweep rock.ply path.csv --workspace -o x.ply
+says err "a path and a workspace" "PATH cannot be used together with --workspace"
 expect 2 "no distance" $prohull build rock.ply --max-distance 0 -o x.ply
 says err "no distance" "--max-distance must be greater than 0, not 0"
 expect 2 "too many degrees" $prohull build rock.ply --max-normal-deviation 91 -o x.ply
