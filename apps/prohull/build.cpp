@@ -24,9 +24,9 @@ namespace prohull::cli {
 
 namespace {
 
-void require_faces_in_name(const BuildOptions& options, const std::filesystem::path& file) {
+void require_faces_in_name(const BuildOptions& options, const std::filesystem::path& file, const std::string& format) {
   if (options.faces.size() <= 1 || file.empty() || path_for(file, 0) != file) return;
-  const auto named = is_standard_stream(file) ? std::filesystem::path("hull." + options.out_format) : file;
+  const auto named = is_standard_stream(file) ? std::filesystem::path("hull." + format) : file;
   refuse(fmt::format(
       "{}: --faces asks for {} hulls, which need names of their own; put {{faces}} where the number of faces goes, as "
       "in {}",
@@ -39,7 +39,7 @@ std::string check_options(const BuildOptions& options) {
   const std::string suffix = output_suffix(options.out, mesh_outputs(), options.out_format);
   if (!options.hierarchy.empty())
     output_suffix(options.hierarchy, {"hierarchies", {".phull"}}, is_standard_stream(options.hierarchy) ? "phull" : "");
-  require_faces_in_name(options, options.out);
+  require_faces_in_name(options, options.out, options.out_format);
   if (options.faces.size() > 1 && !options.hierarchy.empty())
     refuse("--hierarchy is for one number of --faces only; its file holds all finer levels anyway");
   if (options.enclosing.hull.self_intersections == SelfIntersections::Allowed &&
@@ -48,7 +48,7 @@ std::string check_options(const BuildOptions& options) {
         "--self-intersections allowed is for outer hulls without --tight; all others refuse collapses that make them "
         "intersect themselves");
   check_certified(options.certificate, options.in, suffix);
-  require_faces_in_name(options, options.certificate);
+  require_faces_in_name(options, options.certificate, "phcert");
   std::vector<std::filesystem::path> files{options.hierarchy, options.report};
   for (const std::size_t faces : options.faces)
     for (const auto& pattern : {options.out, options.certificate}) files.push_back(path_for(pattern, faces));
@@ -154,7 +154,8 @@ void complete(BuildOptions& options, const std::string& suffix) {
   options.enclosing.levels = !options.hierarchy.empty();
 }
 
-BuildOutcome build_and_write(BuildOptions options) {
+/// Sets the lengths of the options, too, which may be in units of the mesh.
+BuildOutcome build_and_write(BuildOptions& options) {
   const std::string suffix = check_options(options);
   complete(options, suffix);
   BuildOutcome outcome;
@@ -226,11 +227,12 @@ int run_build(const BuildOptions& options) {
   if (meshes.size() > 1) {
     check_several(options, meshes);
     return run_each(meshes, table_head(), [&](const std::filesystem::path& mesh) {
-      const BuildOutcome outcome = build_and_write(for_mesh(options, mesh));
-      return MeshOutcome{exit_code(options, outcome), table_rows(options, outcome), is_as_asked(outcome)};
+      BuildOptions one = for_mesh(options, mesh);
+      const BuildOutcome outcome = build_and_write(one);
+      return MeshOutcome{exit_code(one, outcome), table_rows(one, outcome), is_as_asked(outcome)};
     });
   }
-  const BuildOptions one = for_mesh(options, meshes.front());
+  BuildOptions one = for_mesh(options, meshes.front());
   const BuildOutcome outcome = build_and_write(one);
   print_summary(one, outcome);
   return exit_code(one, outcome);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "console.h"
 #include "options.h"
@@ -31,12 +30,11 @@ CLI::Option* add_certificate_option(CLI::App& command, std::filesystem::path& fi
 void check_certified(const std::filesystem::path& certificate, const std::filesystem::path& original,
                      const std::string& suffix, const std::vector<std::string>& checkable) {
   if (certificate.empty()) return;
-  constexpr std::array<std::string_view, 4> kChecked{".stl", ".obj", ".ply", ".off"};
   if (is_standard_stream(original))
     refuse(
         "--certificate: the original comes from standard input, but it has to be a file that can be checked; save it "
         "and name the file");
-  if (std::ranges::find(kChecked, lower_case_extension(unpacked(original))) == kChecked.end())
+  if (std::ranges::find(kCheckable, lower_case_extension(unpacked(original))) == kCheckable.end())
     refuse(
         fmt::format("--certificate: {}: prohull_check reads .stl, .obj, .ply and .off files only; save the mesh as one "
                     "of these, and name that file as the original",

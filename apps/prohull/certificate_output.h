@@ -15,11 +15,13 @@ namespace prohull::cli {
 CLI::Option* add_certificate_option(CLI::App& command, std::filesystem::path& file, const std::string& what,
                                     const std::string& limits = "");
 
+/// Files of meshes that prohull_check reads.
+inline const std::vector<std::string> kCheckable{".stl", ".obj", ".ply", ".off"};
+
 /// Before any work, if there is to be a certificate: throws InputError(InvalidOption) for an original that
 /// prohull_check does not read, and for an output whose name ends in `suffix`, if that is none of `checkable`.
 void check_certified(const std::filesystem::path& certificate, const std::filesystem::path& original,
-                     const std::string& suffix,
-                     const std::vector<std::string>& checkable = {".stl", ".obj", ".ply", ".off"});
+                     const std::string& suffix, const std::vector<std::string>& checkable = kCheckable);
 
 /// The mesh that was read from `path`, if there is to be a certificate; otherwise nothing.
 CertifiedOriginal certified_original(const std::filesystem::path& certificate, const TriangleMesh& mesh,

@@ -48,10 +48,11 @@ std::size_t distance(std::string_view a, std::string_view b) {
 CLI::Validator number_in(const std::string& name, const Range& range, bool whole) {
   return CLI::Validator(
       [=](std::string& text) -> std::string {
+        const std::string given = text;
         if (range.in_percent && text.size() > 1 && text.ends_with('%')) text.pop_back();
         const auto number = parsed<double>(text);
         if (!number || !std::isfinite(*number))
-          return fmt::format("{} must be a {}number, not '{}'", name, whole ? "whole " : "", text);
+          return fmt::format("{} must be a {}number, not '{}'", name, whole ? "whole " : "", given);
         if (*number < range.least || *number > range.most || (range.without_least && *number == range.least))
           return fmt::format("{} must be {}, not {}", name, told(range, *number), text);
         if (!whole) return "";

@@ -79,7 +79,7 @@ std::string identity(const path& file) {
 }
 
 path temporary_for(const path& target, const std::string& suffix) {
-  constexpr std::size_t kLongest = 100;  // what is added here, and by who writes the file, has room in 255 bytes
+  constexpr std::size_t kLongest = 100;  // of 255 bytes: a name beside this one is longer
   std::random_device random;
   const std::string tail = fmt::format(".{:08x}{:08x}.unfinished{}", random(), random(), suffix);
   if (is_stream(target)) return std::filesystem::temp_directory_path() / ("prohull" + tail);
@@ -200,7 +200,7 @@ bool Outputs::add(const path& target, const std::string& suffix, const std::func
 }
 
 void Outputs::add(const path& target, std::string_view bytes) {
-  add(target, target.extension().string(), [&](const path& file) { return robot::write_text(file, bytes), true; });
+  add(target, "", [&](const path& file) { return robot::write_text(file, bytes), true; });
 }
 
 bool Outputs::add(const path& target, const std::string& suffix, const TriangleMesh& mesh) {

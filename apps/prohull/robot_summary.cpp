@@ -383,11 +383,11 @@ void say_check(const RobotFile& file, std::span<const LinkCheck> checks, double 
 }
 
 void say_disabled(const Robot& robot, const std::string& file, std::span<const DisabledCheck> checks) {
-  // Of what is free by the collision geometry, the visual one counts.
+  // A pair that is free by the collision geometry counts by the visual one.
   const auto verdict_of = [](const DisabledCheck& check) {
     const PairVerdict verdict = check.collision.verdict;
     const bool is_free = verdict == PairVerdict::Never || verdict == PairVerdict::NoGeometry;
-    return is_free ? check.visual.verdict : verdict;
+    return is_free || check.visual.verdict == PairVerdict::Meets ? check.visual.verdict : verdict;
   };
   const auto count = [&](PairVerdict verdict) { return std::ranges::count(checks, verdict, verdict_of); };
   for (const DisabledCheck& check : checks) {

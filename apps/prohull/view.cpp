@@ -106,8 +106,7 @@ std::string written_page(const ViewOptions& options) {
 
 void require_page(const std::filesystem::path& out) {
   if (!view::has_page()) throw InputError(Defect::CannotRead, std::string(view::kNoPage));
-  static const OutputKind kind{"pages", {".html", ".htm"}};
-  output_suffix(out, kind, is_standard_stream(out) ? "html" : "");
+  output_suffix(out, {"pages", {".html", ".htm"}}, is_standard_stream(out) ? "html" : "");
 }
 
 namespace {

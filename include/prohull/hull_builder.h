@@ -73,8 +73,8 @@ class RefusalCounts {
 };
 
 /// Why edges were not collapsed, for people: "12 would pinch the surface, 3 would make a triangle too thin". Reasons
-/// that did not occur are left out.
-std::string describe_refusals(const RefusalCounts& counts);
+/// that did not occur are left out. Behind `before`, if there are any.
+std::string describe_refusals(const RefusalCounts& counts, std::string_view before = "");
 
 /// Limits for the faces that a collapse makes; a collapse beyond them is refused (P&T 3.1.4). The *compactness* of a
 /// triangle is 4 sqrt(3) area / (sum of the squared edges): 1 if it is equilateral, near 0 if it is thin.

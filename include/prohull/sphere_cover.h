@@ -12,7 +12,7 @@
 
 namespace prohull {
 
-/// More balls of a cover are refused: what is searched grows with their number, until it has no memory.
+/// More balls of a cover are refused: time and memory grow with their number.
 inline constexpr std::size_t kMostCoverBalls = 100'000;
 
 struct SphereCoverOptions {

@@ -213,7 +213,7 @@ def spheres(mesh: MeshLike, count: int = 64, *, max_distance: Gap = math.inf, fi
     gives the same bits, whatever `threads` is.
 
     mesh: the path of a file, or a mesh of prohull, trimesh or Open3D, or a tuple of vertices and faces.
-    count: the largest number of balls, at least 1.
+    count: the largest number of balls, in [1, 100000].
     max_distance: how far the balls may reach out of the mesh, in the mesh's unit, greater than 0; or as
         in "0.5%" of the diagonal of the mesh's bounding box. It is proven. The cover
         then has as few balls as keep it; if as many as `count` do not, `within_bounds` is False.

@@ -155,7 +155,7 @@ def distance_bounds(from_: MeshLike, to: MeshLike, *, relative_gap: float = 0.01
     """Returns two bounds of the largest distance of a point of one mesh from the other. Both are proven.
 
     from_, to: meshes, as verify() takes them. The result is in their unit.
-    relative_gap: stops when upper <= (1 + relative_gap) lower, at least 0; or after a million steps, when the bounds
+    relative_gap: stops when upper <= (1 + relative_gap) lower but for rounding, at least 0; or after a million steps, when the bounds
         are farther apart.
     progress: called as build() calls it, with the stage "measure".
 

@@ -380,7 +380,7 @@ class Robot(Shown):
             writes ROBOT_spheres.yaml, as cuRobo reads it.
         pieces, vertices: with collision="convex", the largest number of pieces of each link, at least 1, and of
             vertices of each piece, at least 4.
-        spheres: with collision="spheres", the largest number of spheres of each link, at least 1.
+        spheres: with collision="spheres", the largest number of spheres of each link, in [1, 100000].
         gap: least distance that hulls keep from the geometry, proven. Not for pieces and spheres.
         max_distance: largest distance of a point of a hull from the geometry, proven; greater than 0. None: no bound.
             Pieces and spheres are as few as keep it.

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "prohull/detail/refuse.h"
@@ -51,13 +54,13 @@ class CollisionWriter {
   virtual const XmlElement* link_of(std::size_t link) const = 0;             ///< nullptr: no element is the link
   virtual bool is_shape(const XmlElement& child, Geometry which) const = 0;  ///< the reader makes a shape of it
   virtual bool is_replaced(const XmlElement& collision) const = 0;
-  /// `like` is the first collision element of the link, here and below; nullptr if there is none.
+  /// `like`, here and below: the first collision element of the link that is_replaced; nullptr if there is none.
   virtual Piece hull_piece(const std::string& uri, const XmlElement& link, const XmlElement* like) const = 0;
   virtual Piece ball_piece(const Ball& ball, const XmlElement& link, const XmlElement* like) const = 0;
-  /// Adds elements after the first of the old ones, or where the link has its shapes.
+  /// Adds elements after the first of the old ones, or elsewhere in the link if there are none.
   virtual void insert(std::span<const Piece> pieces, const XmlElement& link, const Elements& old,
                       const XmlElement* like) = 0;
-  /// What stands between the begin of a line, or another element, and the element.
+  /// The end of a line and the indentation of the element, for what is put before it.
   virtual std::string break_before(const XmlElement& element) const = 0;
 
   std::string indentation(const XmlElement& element) const { return std::string(document_.indentation(element)); }

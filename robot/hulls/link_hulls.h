@@ -34,7 +34,7 @@ struct Budget {
   std::vector<std::size_t> faces{500};  ///< of a hull: one hull for each number
   std::size_t pieces = 8;               ///< convex pieces at most
   std::size_t vertices = 64;            ///< of a convex piece at most; at least 4
-  std::size_t spheres = 64;             ///< spheres at most
+  std::size_t spheres = 64;             ///< spheres at most; at most kMostCoverBalls
   double max_distance = 0;              ///< as HullBounds::max_distance; 0: no bound
   double padding = 0;                   ///< a hull keeps at least this distance from the geometry
   bool skip = false;                    ///< leave the collision elements of this link as they are

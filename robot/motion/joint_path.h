@@ -56,7 +56,8 @@ class JointPath {
   JointReach reach(std::size_t k, double begin, double end) const;
 
   /// A place between a row and the next at which joints()[k] is outside of the limits by more than rounding. None if
-  /// there is none, or if it goes straight, so that it is no farther outside than in the rows.
+  /// it hardly is, by less than four times as much, or if it goes straight, so that it is no farther outside than in
+  /// the rows.
   std::optional<double> place_outside(std::size_t k, std::size_t row, const JointRange& limits) const;
   /// How far joints()[k] is at most from the straight line, over places, between its positions_at two places. Rounding
   /// is part of it.

@@ -306,7 +306,7 @@ std::string finding_text(const PairProof& finding, const Robot& robot) {
     case PairVerdict::Adjacent:
       return "is adjacent";
     case PairVerdict::NoGeometry:
-      return "has no geometry";
+      return "is missing for one of the two";
     case PairVerdict::Never:
       return "never meets, proven";
     case PairVerdict::Always:

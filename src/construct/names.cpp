@@ -63,11 +63,11 @@ Names<SelfIntersections> self_intersections_names() { return kSelfIntersectionsN
 
 Names<Refusal> refusal_names() { return kRefusalNames; }
 
-std::string describe_refusals(const RefusalCounts& counts) {
+std::string describe_refusals(const RefusalCounts& counts, std::string_view before) {
   std::string text;
   for (const auto& [name, refusal] : kRefusalNames)
     if (const std::size_t count = counts[refusal])
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(count), consequence(refusal));
+      text += fmt::format("{}{} {}", text.empty() ? before : ", ", grouped(count), consequence(refusal));
   return text;
 }
 

@@ -15,12 +15,14 @@ Candidate Candidates::of_convex(SolidId id, const Ranking& ranking, const Solids
 // refuse collapses that add nothing: of 672 faces, 500 had a void of 0.3 %, where the 188 of the convex hull have none.
 void Candidates::plan_convex_hull() {
   steps_.push_back([this](const Ranking& ranking, Solids& solids) -> std::optional<Candidate> {
-    constexpr double kLittleVoid = 0.02, kNoVoid = 1e-9;
+    constexpr double kLittleVoid = 0.02, kNoVoid = 1e-6;
     constexpr std::size_t kMany = 100'000;  // the convex hull of more points may take as long as the hull
     const EnclosingOptions& options = request_.options;
+    const bool keeps_guards = !options.hull.relax_guards || options.hull.guards != ShapeGuards{};
     const bool is_good = has_few_faces(ranking), is_near = is_good && ranking.slack() < kLittleVoid;
     if (options.levels || (is_good && options.keep_cavities) ||
-        (is_near && (ranking.slack() <= kNoVoid || request_.is_padded() || request_.to_cover().face_count() > kMany)))
+        (is_near && (ranking.slack() <= kNoVoid || request_.is_padded() || keeps_guards ||
+                     request_.to_cover().face_count() > kMany)))
       return std::nullopt;
     const auto too_large = is_good ? std::optional(ranking.best_volume()) : std::nullopt;
     const auto id = solids.convex_hull(too_large);

@@ -169,8 +169,8 @@ std::string Ranking::why_not(const EnclosingHull& hull) const {
                               : "is not proven to lie inside of the mesh");
   if (!hull.within_bounds) return none_within_bounds(hull.solid);
   if (!hull.target_reached)
-    return fmt::format("no legal collapse of {} is left at {} faces: of its edges, {}", source,
-                       grouped(hull.mesh.face_count()), describe_refusals(hull.blocked));
+    return fmt::format("no legal collapse of {} is left at {} faces{}", source, grouped(hull.mesh.face_count()),
+                       describe_refusals(hull.blocked, ": of its edges, "));
   return fmt::format("a hull of {} intersects itself in {}", source,
                      counted(hull.self_intersections, "pair of faces", "pairs of faces"));
 }

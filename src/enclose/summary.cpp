@@ -71,11 +71,20 @@ std::string described_guards(const EnclosingHull& hull) {
       std::isfinite(guards.max_overhang) ? "" : " and spikes are allowed", hull.relaxed_guards, kRelaxedGuards.size());
 }
 
-/// Of several bounds that which is missed by most.
-const char* missed_bound(const ToldHull& told) {
+/// Of several bounds that which is missed by most, and what to do.
+std::string missed_bound(const ToldHull& told) {
   constexpr double kRounding = 1e-9;
-  const double used_of_void = std::abs(told.hull.void_ratio) / told.options.bounds.max_void_ratio;
-  return used_of_void >= (1 - kRounding) * told.hull.excess ? "void" : "distance";
+  const HullBounds& bounds = told.options.bounds;
+  const bool is_of_distance = std::isfinite(bounds.max_distance), is_of_added = std::isfinite(bounds.max_added_volume),
+             is_of_void = std::isfinite(bounds.max_void_ratio);
+  const double used_of_void = std::abs(told.hull.void_ratio) / bounds.max_void_ratio;
+  if (is_of_distance + is_of_added + is_of_void == 1)
+    return fmt::format("{}; allow that much", is_of_distance ? "distance" : is_of_added ? "added volume" : "void");
+  const bool is_void_known = !is_of_void || !std::isnan(used_of_void);
+  return fmt::format("{}; allow at least that much", used_of_void >= (1 - kRounding) * told.hull.excess ? "void"
+                                                     : is_void_known && !is_of_added                    ? "distance"
+                                                     : is_void_known && !is_of_distance                 ? "added volume"
+                                                                                        : "value of one of them");
 }
 
 std::string line_of_missed_bounds(const ToldHull& told) {
@@ -83,9 +92,9 @@ std::string line_of_missed_bounds(const ToldHull& told) {
   const double missing = told.hull.excess - 1;
   const bool is_open = !told.made.input.closed || told.measures.has_openings;
   std::string line = "NOT within the bounds asked for: of all that was tried, this hull misses them least";
-  line += missing > kFar ? fmt::format(", by more than {:.0f} %", 100 * kFar)
-                         : fmt::format(", by {:.3g} % of the largest {}; allow that much", rounded_up(100 * missing, 3),
-                                       missed_bound(told));
+  line += missing > kFar
+              ? fmt::format(", by more than {:.0f} %", 100 * kFar)
+              : fmt::format(", by {:.3g} % of the largest {}", rounded_up(100 * missing, 3), missed_bound(told));
   if (is_open || told.input_self_intersections > 0)
     line += fmt::format("{} mend the mesh where it {}", missing > kFar ? ";" : ", or",
                         is_open ? "is open or intersects itself" : "intersects itself");
@@ -287,9 +296,9 @@ std::vector<std::string> lines_of_limits(const ToldHull& told) {
                                 counted(hull.rounded_vertices, "vertex", "vertices")));
   if (hull.relaxed_guards > 0) lines.push_back(described_guards(hull));
   if (!hull.target_reached)
-    lines.push_back(fmt::format("no legal collapse is left above the {} faces asked for: {}; of the {} edges left, {}",
+    lines.push_back(fmt::format("no legal collapse is left above the {} faces asked for: {}; of the {} edges left{}",
                                 grouped(hull.target_faces), described_topology(hull.mesh),
-                                grouped(3 * hull.mesh.face_count() / 2), describe_refusals(hull.blocked)));
+                                grouped(3 * hull.mesh.face_count() / 2), describe_refusals(hull.blocked, ", ")));
   if (!hull.within_bounds) lines.push_back(line_of_missed_bounds(told));
   return lines;
 }

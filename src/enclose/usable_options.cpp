@@ -62,8 +62,10 @@ void require_usable(const TriangleMesh& triangles, std::span<const std::size_t> 
   require_usable_lengths(options);
   require_usable_tolerances(triangles, options);
   require_usable_mirror(options);
-  if (options.hull.side == HullSide::Inner && (options.repair == Repair::Wrap || options.seal_holes > 0))
-    refuse("inner hulls are not built from wraps, of which nothing is known to be inside: leave the repair at auto");
+  if (options.hull.side == HullSide::Inner && options.repair == Repair::Wrap)
+    refuse("the repair 'wrap' is for outer hulls: what lies inside of a wrap need not lie inside of the mesh");
+  if (options.hull.side == HullSide::Inner && options.seal_holes > 0)
+    refuse("inner hulls seal no holes: leave out how large they may be");
 }
 
 }  // namespace prohull

@@ -58,7 +58,7 @@ double Candidates::finest_worth_its_faces(const Solids& solids) const {
 std::optional<SolidId> Candidates::wrap(const WrapKind& kind, double spacing, Solids& solids) const {
   std::string why_not;
   const std::optional<SolidId> id = solids.wrap(kind, spacing, target_faces_, why_not);
-  if (!why_not.empty()) notes_.add(why_not);
+  if (!why_not.empty()) notes_.add_why_not(Source::Wrap, why_not);
   return id;
 }
 

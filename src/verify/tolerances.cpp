@@ -147,7 +147,7 @@ std::size_t count_far(const TriangleMesh& hull, const TriangleMesh& mesh, const 
                       const Progress& progress) {
   const double largest = std::max(verify::largest_coordinate(hull), verify::largest_coordinate(mesh));
   const double unit = verify::usable_unit(largest), rounding = verify::rounding_of_distances(largest * unit);
-  // A crossing p + (q - p) f is off by 5 eps of the largest coordinate in each of its own.
+  // A crossing p + (q - p) f is off by 5 eps of the largest coordinate in each of its own, and 5 sqrt(3) < 9.
   const double per_cut = 9 * 0x1p-53 * largest * unit;
   const TriangleMesh to = verify::scaled(hull, unit), from = verify::scaled(mesh, unit);
   const NearestFace faces(to);

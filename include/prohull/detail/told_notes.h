@@ -20,7 +20,8 @@ inline std::vector<std::string> told_notes(const EnclosingHull& hull, const Encl
   std::vector<std::string> notes = hull.notes;
   if (!hull.target_reached)
     notes.push_back("the hull has " + std::to_string(hull.mesh.face_count()) + " faces, more than the " +
-                    std::to_string(hull.target_faces) + " asked for: of its edges, " + describe_refusals(hull.blocked));
+                    std::to_string(hull.target_faces) + " asked for" +
+                    describe_refusals(hull.blocked, ": of its edges, "));
   if (!hull.within_bounds) notes.emplace_back("the hull is not within the bounds asked for: no hull that was tried is");
   add_note_of_estimate(made.is_estimated && !std::isnan(hull.void_ratio), notes);
   return notes;
