@@ -185,19 +185,21 @@ struct CutPlace {
 
 /// Where another face becomes the nearer one: both halves are then near to one. Of strips that lie over strips, this
 /// leaves half of the parts that halves of the longest side do, and of faces in one plane few more than there are edges
-/// between them. Short sides would lead to ever shorter ones.
+/// between them. Short sides would lead to ever shorter ones, and what is cut at other sides may keep the longest.
 CutPlace cut_place(const FarFromFaces::Part& part) {
   constexpr double kShort = 0.25;   // of the bound
   constexpr double kLeast = 0.125;  // of the side
+  const auto longest = static_cast<std::size_t>(longest_side(part.corners));
   double greatest = kShort * upper(part);
-  CutPlace place{static_cast<std::size_t>(longest_side(part.corners)), 0.5};
-  for (std::size_t i = 0; i < 3; ++i) {
+  CutPlace place{longest, 0.5};
+  for (const std::size_t i : {longest, (longest + 1) % 3, (longest + 2) % 3}) {
     const std::size_t j = (i + 1) % 3;
     const double from_i = part.distances[i][j] - part.distances[i][i],
                  from_j = part.distances[j][i] - part.distances[j][j];
     if (!(from_i > 0 && from_j > 0 && from_i + from_j > greatest)) continue;
     greatest = from_i + from_j;
     place = {i, std::clamp(from_i / greatest, kLeast, 1 - kLeast)};
+    if (i == longest) break;
   }
   return place;
 }

@@ -111,6 +111,38 @@ TEST(DistanceBounds, OfFacesInOnePlaneTakeFewParts) {
   EXPECT_LT(distance_bounds(cube, divided, {.max_cells = 1000 * divided.face_count()}).upper, 1e-12);
 }
 
+// Parts whose longest sides were never cut, as their corners kept on one line.
+TEST(DistanceBounds, OfOverlapsInOnePlaneAreNear) {
+  const auto triangles = [](const std::vector<Vec3>& corners) {
+    TriangleMesh mesh;
+    for (std::size_t i = 0; i < corners.size(); i += 3)
+      append(mesh, make({corners[i], corners[i + 1], corners[i + 2]}, {{0, 1, 2}}));
+    return mesh;
+  };
+  const TriangleMesh from = triangles({{5.6, -1.406, 0.6468},
+                                       {-0.6, -1.167, 1.017},
+                                       {-0.6, -1.531, 0.2246},
+                                       {-12, 23, 22},
+                                       {-13.15, 23, 22.23},
+                                       {-1.083, 23, 30.38},
+                                       {-12, 23, 22},
+                                       {-5.585e-08, 23, 29.75},
+                                       {12, 23, 22},
+                                       {12, 23, 22},
+                                       {-5.585e-08, 23, 29.75},
+                                       {0.625, 23, 29.92}}),
+                     to = triangles({{-14.75, 23, 25.25},   {14.75, 23, 25.25},     {-14.75, 23, 56.75},
+                                     {-14.75, 23, 25.25},   {-12.68, 23, 22.4},     {-11.75, 23, 22.25},
+                                     {-14.75, 23, 25.25},   {-11.75, 23, 22.25},    {14.75, 23, 25.25},
+                                     {14.75, 23, 25.25},    {-11.75, 23, 22.25},    {11.75, 23, 22.25},
+                                     {5.6, 0.2093, -1.485}, {-0.6, 0.6193, -1.366}, {5.6, 0.6193, -1.366},
+                                     {5.6, -1.26, 0.8145},  {-0.6, -1.26, 0.8145},  {-0.6, -1.438, 0.4267},
+                                     {-1.083, 23, 30.38},   {-13.15, 23, 22.23},    {-14.12, 23, 22.88},
+                                     {-12, 23, 22},         {-0.625, 23, 29.92},    {-5.585e-08, 23, 29.75}});
+  const DistanceBounds bounds = distance_bounds(from, to);
+  EXPECT_LE(bounds.upper, 1.010001 * bounds.lower) << "they were 18 % apart";
+}
+
 TEST(DistanceBounds, OfNeedlesAndPointsAreThoseOfTheirCorners) {
   const TriangleMesh needle = make({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}});
   const TriangleMesh point = make({{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}, {{0, 1, 2}});
