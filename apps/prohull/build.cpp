@@ -151,10 +151,11 @@ void complete(BuildOptions& options, const std::string& suffix) {
   HullOptions& hull = options.enclosing.hull;
   hull.float32_coordinates = stores_float32(mesh_format("hull" + suffix));
   hull.guards.max_normal_deviation = options.normal_deviation_degrees * kDegree;
+  if (options.max_void_percent > 0) options.enclosing.bounds.max_void_ratio = options.max_void_percent / 100;
   options.enclosing.levels = !options.hierarchy.empty();
 }
 
-/// Sets the lengths of the options, too, which may be in units of the mesh.
+/// Completes the options, too: lengths may be in units of the mesh.
 BuildOutcome build_and_write(BuildOptions& options) {
   const std::string suffix = check_options(options);
   complete(options, suffix);
@@ -193,8 +194,8 @@ int exit_code(const BuildOptions& options, const BuildOutcome& outcome) {
   return !all_certified || !all_within_bounds || (options.strict && !is_as_asked(outcome)) ? kAnswerIsNo : kDone;
 }
 
-/// The options of this mesh: the bound of its void, and the names of what is written. A hull that goes into a folder
-/// has the format of its mesh, if hulls are written in that format.
+/// The options with the names of what is written for this mesh. A hull that goes into a folder has the format of its
+/// mesh, if hulls are written in that format.
 BuildOptions for_mesh(BuildOptions options, const std::filesystem::path& in) {
   const std::vector<std::string> formats = mesh_outputs().suffixes;
   const bool is_written = std::ranges::find(formats, lower_case_extension(without_gz(in))) != formats.end();
@@ -204,7 +205,6 @@ BuildOptions for_mesh(BuildOptions options, const std::filesystem::path& in) {
   options.out = pattern_of(options.out, (options.faces.size() > 1 ? "_{faces}" : "") + suffix);
   for (auto* const file : {&options.out, &options.hierarchy, &options.certificate, &options.report})
     *file = named_after(*file, in);
-  if (options.max_void_percent > 0) options.enclosing.bounds.max_void_ratio = options.max_void_percent / 100;
   return options;
 }
 
